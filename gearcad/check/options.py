@@ -11,9 +11,11 @@ from gearcad.contact.shared.bodies import BodyModel, Cuts, Hold
 from gearcad.core.errors import GeometryError, ParameterError
 from gearcad.core.quantities import (
     BAND,
+    FRICTION,
     LENGTH,
     MODULUS,
     TORQUE,
+    WHEN_GIVEN,
     AssumedNumber,
     Choice,
     Member,
@@ -25,6 +27,7 @@ from gearcad.core.quantities import (
 from gearcad.core.records import PerGear, concise
 from gearcad.geometry import GearPair, RackPair
 from gearcad.material import STEEL_MODULUS
+from gearcad.rating.friction import FrictionLaw
 
 __all__ = ["CheckOptions", "Model"]
 
@@ -71,7 +74,8 @@ class CheckOptions:
     ring that is the hub; solid bodies know neither shaft nor key. `torques` (N·m
     on the pinion) of the sweep, () for five up to the load's. `root_band`, `stiffness_band` and `contact_band` (%): how far
     root stress, stiffness, and load and stress along the lines of contact may be from ISO 6336. `plane` is "strain" (wide
-    gears) or "stress": of the plane model only, as `contact_band` is of the solid one.
+    gears) or "stress": of the plane model only, as `contact_band` is of the solid one. `friction` is the coefficient of
+    friction of the flanks, or its law: "flash", "integral" or "niemann"; None for none.
     """
 
     model: Annotated[str, _MODELS, Words("model: plane (2d), solid bodies (3d) or section")] = _AUTO
@@ -92,6 +96,9 @@ class CheckOptions:
     root_band: Annotated[float, BAND, Words("how far root stresses may be from the standard")] = 25.0
     stiffness_band: Annotated[float, BAND, Words("how far stiffness may be from the standard")] = 25.0
     contact_band: Annotated[float, BAND, Words("how far the contact stress may be from the standard")] = 25.0
+    friction: Annotated[float | FrictionLaw | None, FRICTION, Words("friction of the flanks, or its law", "µ"), WHEN_GIVEN] = (
+        None
+    )
 
     __repr__ = concise
 

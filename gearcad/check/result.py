@@ -24,6 +24,7 @@ from gearcad.check.explanation import (
     explain_solid_roots,
     explain_stiffness,
 )
+from gearcad.check.friction import MeshLosses
 from gearcad.check.notices import elastic_end
 from gearcad.check.on_shafts import LoadOnShafts
 from gearcad.check.options import CheckOptions, Model
@@ -127,6 +128,7 @@ class CheckResult(Pictured, ABC):
     comparisons: tuple[Comparison, ...]
     notices: tuple[Notice, ...]
     relief_starts: tuple[ReliefStart, ...] = ()
+    losses: MeshLosses | None = None
 
     model: ClassVar[Model]
 
@@ -354,7 +356,7 @@ def check_document(result: CheckResult) -> JsonObject:
         "load": inputs_document(result.load),
         "mounting": asdict(result.mounting),
         **materials_document(result.material),
-        "options": asdict(result.options),
+        "options": inputs_document(result.options),
         "body": result.bodies,
         "mesh": {role.value: body.mesh_document for role, body in result.cycle.model.bodies.items()},
         **result.own_document,
@@ -363,6 +365,7 @@ def check_document(result: CheckResult) -> JsonObject:
         "summary": result.summary.to_dict(),
         "not_evaluated": result.summary.missing,
         "extremes": {name: _extreme(of) for name, of in result.summary.extremes.items()},
+        **({} if result.losses is None else {"friction": result.losses.to_dict()}),
         "torque_sweep": [point.to_dict() for point in result.sweep],
         "torque_trends": result.trends.to_dict(),
         "rating": result.rating.to_dict(),

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 
 from gearcad.check.comparison import SECTION
 from gearcad.check.convergence import FACTORS, FEW_POSITIONS, SOLID_FACTORS, sweep_points, three_meshes, three_solid_meshes
+from gearcad.check.friction import friction_notices, mesh_losses
 from gearcad.check.gates import compare_plane, compare_solid
 from gearcad.check.notices import common_notices
 from gearcad.check.on_shafts import load_on_shafts, shaft_notices
@@ -154,6 +155,7 @@ def check_plane(task: CheckTask, tell: Agenda) -> PlaneCheck:
         *plane_notices(task),
         *wide_plane_contacts(cycle),
         *start_notices(task, starts),
+        *friction_notices(task),
     )
     return PlaneCheck(
         task=task,
@@ -164,6 +166,7 @@ def check_plane(task: CheckTask, tell: Agenda) -> PlaneCheck:
         comparisons=comparisons,
         notices=notices,
         relief_starts=starts,
+        losses=mesh_losses(task, cycle),
     )
 
 
@@ -179,7 +182,8 @@ def plane_model(task: CheckTask, factor: float = 1.0) -> PlanePair:
     options = task.options
     sizes = MeshSizes().refined(factor * options.refinement)
     error = task.mounting.pitch_error
-    return plane_pair(task.pair, task.material, plane=options.plane_state, body=task.body, sizes=sizes, pitch_error=error)
+    made = plane_pair(task.pair, task.material, plane=options.plane_state, body=task.body, sizes=sizes, pitch_error=error)
+    return made.rubbing(task.friction)
 
 
 def _refined(task: CheckTask, middle: PlaneCycle) -> Iterator[PlaneCycle]:
@@ -267,6 +271,7 @@ def check_solid(task: CheckTask, agenda: Agenda) -> SolidCheck:
         *wide_solid_contacts(cycle),
         *start_notices(task, starts),
         *shaft_notices(task),
+        *friction_notices(task),
     )
     return SolidCheck(
         task=task,
@@ -279,6 +284,7 @@ def check_solid(task: CheckTask, agenda: Agenda) -> SolidCheck:
         notices=notices,
         relief_starts=starts,
         shafts=shafts,
+        losses=mesh_losses(task, cycle),
     )
 
 
@@ -290,7 +296,9 @@ def solid_model(task: CheckTask, factor: float = 1.0, tell: Share = unheard, *, 
     """
     sizes = sizes_of(task, factor)
     pair, mounting = loaded_left(task.gear_pair, task.torque), replace(task.mounting, centre_distance_change=0.0)
-    made = solid_pair(pair, task.material, body=task.body, sizes=sizes, mounting=mounting, fields=fields, tell=tell)
+    made = solid_pair(
+        pair, task.material, body=task.body, sizes=sizes, mounting=mounting, fields=fields, friction=task.friction, tell=tell
+    )
     return made if task.supports is None else made.on(task.supports)
 
 
@@ -377,7 +385,7 @@ def load_distribution(task: CheckTask, tell: Share = unheard) -> LoadDistributio
     speed_factor = dynamic_factor(mesh).factors["K_v"]
     off = _standing_off(mesh, mounting, speed_factor, on_shafts=task.shafts is not None)
     torque = task.torque * options.mesh_load_factor * speed_factor
-    asked = replace(task.options, model=Model.SOLID.value, refinement=COARSE, convergence="off", torques=())
+    asked = replace(task.options, model=Model.SOLID.value, refinement=COARSE, convergence="off", torques=(), friction=None)
     model = solid_model(replace(task, load=Load(torque=torque), options=asked), tell=tell)
     if mounting.misalignment or not off:
         sides: tuple[float, ...] = (off,)

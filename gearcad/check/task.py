@@ -17,6 +17,7 @@ from gearcad.geometry import Gear, GearPair, RackPair
 from gearcad.load import Load
 from gearcad.material import Material, Materials, of_both
 from gearcad.mounting import Mounting, SupportCompliance
+from gearcad.rating.friction import MeshFriction, mesh_friction
 from gearcad.rating.load_factor_formulas import face_load_factor, helix_factors, root_face_load_factor, width_to_height
 from gearcad.rating.load_factors import BodyLoad, FaceLoadSource, deflection_of
 from gearcad.rating.nominal_rating import Rating, rate, rate_rack
@@ -115,6 +116,16 @@ class CheckTask:
         return None if self.on_shafts is None else self.on_shafts.face.supports()
 
     @cached_property
+    def friction(self) -> MeshFriction | None:
+        """Friction of the flanks; None where none is asked for. Raises ParameterError where its law has no coefficient."""
+        asked = self.options.friction
+        if asked is None:
+            return None
+        if isinstance(self.pair, RackPair):
+            raise ParameterError("check.friction", asked, "must be left out for a pinion and a rack")
+        return mesh_friction(self.pair, self.materials, self.load, asked, self.rating_options)
+
+    @cached_property
     def rating(self) -> Rating:
         """Rating by ISO 6336 or DIN 3990, Method B: nominal stresses with K_A."""
         if isinstance(self.pair, RackPair):
@@ -155,6 +166,7 @@ def check_task(
         shafts=shafts,
     )
     _require_meshing(task)
+    _ = task.friction
     return task
 
 

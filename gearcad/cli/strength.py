@@ -87,6 +87,7 @@ def print_verdict(name: str, result: CheckResult) -> None:
     if console.width < _WIDE:
         rows = [_Line(row.cells[:-1], row.style) for row in rows]
     lines = [*_aligned(rows), (_WORDS + _LOCAL * bool(result.relief_starts), "")]
+    lines += [(line, "") for line in _losses(result)]
     lines += [(f"Not evaluated: {', '.join(quantities)}: {reason}", "yellow") for reason, quantities in _reasons(result)]
     for text, style in lines:
         # Soft wrap: a narrow window may break a line, but never cut a number.
@@ -126,6 +127,18 @@ def _verdict_row(of: Comparison) -> _Line:
     figures = ("-" if value is None else f"{value:.5g}" for value in (of.computed, of.reference))
     cells = (word, of.quantity, *figures, of.unit, deviation, permitted, of.source.split(":")[0])
     return _Line(cells, "" if of.passed else "bold red" if gate else "yellow")
+
+
+def _losses(result: CheckResult) -> Iterator[str]:
+    """Yield a line on the friction of the flanks, if there is any."""
+    if (losses := result.losses) is None:
+        return
+    watts = "" if losses.mean_loss is None else f", {losses.mean_loss:.4g} W lost"
+    factors = "" if losses.loss_factor is None else f"; H_V {losses.loss_factor:.4f} in the contact"
+    if losses.ohlendorf is not None:
+        factors += f", {losses.ohlendorf:.4f} by Ohlendorf"
+    efficiency = f"efficiency of the mesh {100 * losses.efficiency:.3f} %{watts}{factors}"
+    yield f"Friction: µ = {losses.coefficient:.4f}, {losses.words}; {efficiency}"
 
 
 def _reasons(result: CheckResult) -> Iterable[tuple[str, list[str]]]:

@@ -121,6 +121,7 @@ DENSITY = Range("kg/m³", 1e-3, 1e5)
 
 STRENGTH = Range("MPa", 1e-3, 1e6)
 BAND = Range("%", 0.01, 1e4)
+FRICTION = Range("", 0.0, 0.5)
 OFFSET = Range("mm", 1e-6, 1e5, signed=True)
 """Distance of something from its place."""
 

@@ -26,6 +26,9 @@ if TYPE_CHECKING:
 REFERENCE = "reference"
 """The node that carries the torque: its first degree of freedom is the angle (rad) by which the pinion turns."""
 
+WHEEL_REFERENCE = "wheel_reference"
+"""The node whose first degree of freedom is the angle (rad) by which the wheel turns about its axis, where flanks slide."""
+
 HELD = "{}_held"
 """Nodes of a gear that its hub holds: all of the bore, and the cuts of a body that is no ring."""
 
@@ -67,6 +70,19 @@ class Flanks:
         return self.parts or (self.slave,)
 
 
+@dataclass(frozen=True)
+class Sliding:
+    """Friction of flanks that slide as the gears turn under the torque: the pinion by `turn` (rad), the wheel by `wheel_turn`.
+
+    `coefficient` of friction; `distance` (mm) of the wheel's axis from that of the pinion, along x.
+    """
+
+    coefficient: float
+    turn: float
+    wheel_turn: float
+    distance: float
+
+
 @dataclass(frozen=True, kw_only=True)
 class LoadedPairDeck:
     """Gears in mesh, the pinion pressed against the wheel by a torque.
@@ -74,7 +90,8 @@ class LoadedPairDeck:
     `mesh` has both gears, posed; `held` are the nodes of each that its hub holds: those of the wheel stand, those of the
     pinion turn about the z axis by the turn of a node of reference, on which the `torque` (N·m) is. `flanks` may touch, with
     pressures of `contact_stiffness` (MPa/mm) times their overlap. `width` (mm) is the thickness of sections, None for solids.
-    `words` stand in the deck as comments. Gears with one of the `shafts` are held by it.
+    `words` stand in the deck as comments. Gears with one of the `shafts` are held by it. With `sliding` the gears turn in a
+    second step, under the torque.
     """
 
     mesh: ElementMesh
@@ -86,6 +103,7 @@ class LoadedPairDeck:
     words: Sequence[str] = ()
     width: float | None = None
     shafts: Mapping[Role, DeckShaft] = field(default_factory=dict)
+    sliding: Sliding | None = None
 
     @property
     def reference(self) -> int:
@@ -110,7 +128,10 @@ class LoadedPairDeck:
                 shaft.write_equations(file, self.mesh.points)
             if Role.PINION not in self.shafts:
                 write_turned(file, self.held.pinion, self.mesh.points, self.reference)
-            write_contact(file, self.flanks, self.contact_stiffness)
+            if self.sliding is not None:
+                file.write(f"*NODE, NSET={WHEEL_REFERENCE}\n{self.reference + 1}, {number(self.sliding.distance)}, 0., 0.\n")
+                write_turned(file, self.held.wheel, self.mesh.points, self.reference + 1, self.sliding.distance)
+            write_contact(file, self.flanks, self.contact_stiffness, _BEGUN if self.sliding is not None else 0.0)
             self._write_supports(file)
             self._write_step(file)
 
@@ -126,7 +147,10 @@ class LoadedPairDeck:
 
     def _write_supports(self, file: TextIO) -> None:
         file.write("*BOUNDARY\n")
-        if Role.WHEEL not in self.shafts:
+        if self.sliding is not None:
+            file.write(f"{WHEEL_REFERENCE}, 1, 3\n")
+            file.write(f"{HELD.format(Role.WHEEL.value)}, 3\n" if self._solid else "")
+        elif Role.WHEEL not in self.shafts:
             file.write(f"{HELD.format(Role.WHEEL.value)}, 1, {3 if self._solid else 2}\n")
         if self._solid and Role.PINION not in self.shafts:
             file.write(f"{HELD.format(Role.PINION.value)}, 3\n")
@@ -142,9 +166,15 @@ class LoadedPairDeck:
         file.write(f"*CLOAD\n{REFERENCE}, 1, {number(self.torque * 1000)}\n")
         for shaft in self.shafts.values():
             shaft.write_loads(file)
+        if self.sliding is not None:
+            file.write("*END STEP\n*STEP, INC=200\n*STATIC\n0.02, 1., 1.e-5, 0.1\n")
+            file.write(f"*CHANGE FRICTION, INTERACTION={_INTERACTION}\n")
+            write_friction(file, self.sliding.coefficient, self.contact_stiffness)
+            file.write(f"*BOUNDARY\n{WHEEL_REFERENCE}, 1, 1, {number(self.sliding.wheel_turn)}\n")
         file.write("*NODE FILE, NSET=nodes\nU\n*EL FILE\nS\n*CONTACT FILE\nCDIS, CSTR\n")
         file.write(f"*NODE PRINT, NSET={REFERENCE}\nU\n")
-        file.write(f"*NODE PRINT, NSET={HELD.format(Role.WHEEL.value)}, TOTALS=ONLY\nRF\n")
+        if self.sliding is None:
+            file.write(f"*NODE PRINT, NSET={HELD.format(Role.WHEEL.value)}, TOTALS=ONLY\nRF\n")
         for each in self.flanks:
             file.writelines(f"*CONTACT PRINT, SLAVE={slave}, MASTER={each.master}\nCF\n" for slave in each.slaves)
         file.write("*CONTACT PRINT\nCSTR\n*END STEP\n")
@@ -181,8 +211,8 @@ def write_material(file: TextIO, material: Material, parts: Iterable[str], width
             file.write(f"{number(width)}\n")
 
 
-def write_turned(file: TextIO, nodes: Wholes, points: Floats, reference: int) -> None:
-    """Write equations that let nodes turn about the z axis by the angle (rad) of the node of reference.
+def write_turned(file: TextIO, nodes: Wholes, points: Floats, reference: int, distance: float = 0.0) -> None:
+    """Write equations that let nodes turn about an axis at x = `distance` (mm) by the angle (rad) of the node of reference.
 
     The angle is its degree of freedom 1. The equations are u = -y t, v = x t: rigid bodies and couplings of CalculiX 2.20 do
     not take nodes of sections.
@@ -190,24 +220,34 @@ def write_turned(file: TextIO, nodes: Wholes, points: Floats, reference: int) ->
     file.write("*EQUATION\n")
     for node in np.unique(nodes).tolist():
         x, y, _ = points[node].tolist()
-        for freedom, factor in ((1, y), (2, -x)):
+        for freedom, factor in ((1, y), (2, distance - x)):
             if abs(factor) > _NO_COEFFICIENT:
                 file.write(f"2\n{node + 1}, {freedom}, 1., {reference}, 1, {number(factor)}\n")
             else:
                 file.write(f"1\n{node + 1}, {freedom}, 1.\n")
 
 
-def write_contact(file: TextIO, flanks: Iterable[Flanks], stiffness: float) -> None:
-    """Write frictionless contact of surface to surface.
+def write_contact(file: TextIO, flanks: Iterable[Flanks], stiffness: float, friction: float = 0.0) -> None:
+    """Write contact of surface to surface, with a coefficient of friction.
 
     Each pair of flanks is one of its own, so that its force can be printed.
     """
     file.write(f"*SURFACE INTERACTION, NAME={_INTERACTION}\n")
     file.write(f"*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n{number(stiffness)}\n")
+    if friction:
+        write_friction(file, friction, stiffness)
     for each in flanks:
         pair = f"*CONTACT PAIR, INTERACTION={_INTERACTION}, TYPE=SURFACE TO SURFACE\n"
         file.writelines(f"{pair}{slave}, {each.master}\n" for slave in each.slaves)
 
+
+def write_friction(file: TextIO, coefficient: float, stiffness: float) -> None:
+    """Write friction, with a stiffness of sticking flanks that goes with that of the contact (MPa/mm)."""
+    file.write(f"*FRICTION\n{number(coefficient)}, {number(_STICK * stiffness)}\n")
+
+
+_STICK, _BEGUN = 0.1, 1e-6
+"""Shear by slip where flanks stick, over pressure by overlap; coefficient of friction before the flanks slide."""
 
 _COLUMN = 12
 """Characters of a number in a .frd, from the thirteenth of a line on."""
@@ -221,12 +261,14 @@ _ROWS = re.compile(r"[-+ 0-9.EeNna]+")
 @dataclass(frozen=True)
 class PrintedContact:
     """Results in the .dat file of a loaded pair: rotation of the pinion (rad), and by the names of the slave surfaces the
-    normal force (N, 0 where nothing touches) and the greatest pressure at a point of integration (MPa).
+    normal force (N, 0 where nothing touches) and the greatest pressure at a point of integration (MPa). `totals` are force (3,)
+    in N and moment (3,) in N mm about the origin on each.
     """
 
     turn: float
     forces: Mapping[str, float]
     pressures: Mapping[str, float]
+    totals: Mapping[str, Sequence[float]]
 
     @property
     def shares(self) -> dict[str, float]:
@@ -238,6 +280,7 @@ class PrintedContact:
 def printed_contact(path: Path, mesh: ElementMesh, flanks: Iterable[str]) -> PrintedContact:
     """Read the .dat of a loaded pair; `flanks` are the slave surfaces. Raises SolverError if it is not whole."""
     turn, forces, stresses = math.nan, dict.fromkeys(flanks, 0.0), np.empty((0, 3))
+    totals = dict[str, Sequence[float]]()
     sides = {name.upper(): name for name in forces}
     for heading, rows in _blocks(path):
         if heading.startswith("displacements"):
@@ -247,10 +290,12 @@ def printed_contact(path: Path, mesh: ElementMesh, flanks: Iterable[str]) -> Pri
         elif found := _SETS.match(heading):
             force = -rows[-1][1] if len(rows) > 3 else math.nan
             forces[sides[found[1]]] = force if math.isfinite(force) else 0.0
+            totals[sides[found[1]]] = rows[0]
     if not math.isfinite(turn) or not len(stresses):
         raise SolverError(f"{path.name} has no loaded pair: check that CalculiX finished")
     owners = {name: np.isin(stresses[:, 0], mesh.sides[name].elements + 1) for name in forces}
-    return PrintedContact(turn, forces, {name: float(stresses[own, 2].max(initial=0.0)) for name, own in owners.items()})
+    pressures = {name: float(stresses[own, 2].max(initial=0.0)) for name, own in owners.items()}
+    return PrintedContact(turn, forces, pressures, totals)
 
 
 def _blocks(path: Path) -> Iterator[tuple[str, list[list[float]]]]:

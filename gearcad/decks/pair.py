@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, ClassVar, TextIO
@@ -13,13 +13,14 @@ import numpy as np
 
 from gearcad.check.task import CheckTask
 from gearcad.contact.shared.bodies import Cuts, Hold
-from gearcad.contact.shared.loaded import Cycle, LoadedPosition, PairContact
+from gearcad.contact.shared.loaded import FAIR, Cycle, LoadedPosition, PairContact
 from gearcad.core.errors import GeometryError, ParameterError, format_number
 from gearcad.core.records import Floats, JsonObject, PerGear, Role, Wholes
 from gearcad.decks.calculix import (
     HELD,
     Flanks,
     LoadedPairDeck,
+    Sliding,
     displacements,
     printed_contact,
     write_heading,
@@ -33,6 +34,7 @@ from gearcad.meshing.bodies.body_mesh import posed, poses
 from gearcad.meshing.bodies.element_mesh import BORE, RIM
 from gearcad.meshing.bodies.sectors import ContactRefinement
 from gearcad.meshing.files import element_type, write_elements, write_nodes
+from gearcad.rating.friction import sliding_levers
 
 _PAIR = """\
 A pair of gears in mesh at the roll angle {roll_angle:.6g} deg, the pinion pressed against the wheel by {torque:.6g} N m.
@@ -130,6 +132,16 @@ def require_same_flanks(task: CheckTask) -> None:
             raise GeometryError("pair.axial_offset", pair.axial_offset, permitted, "mm")
 
 
+_WITH_FRICTION = """\
+
+Flanks have friction, which needs a sense. After the torque the wheel turns in a second step, and the pinion by {:.4g} deg with
+it: the flanks slide, and stand at the roll angle in the end. The set wheel_reference has the torque on the wheel."""
+
+_SLIDING, _MOST_TURN = 2.0, 5e-3
+"""Distance by which flanks slide, in coefficients of friction and approaches of the gears, so that none sticks; and the most by
+which the pinion turns for it (rad), as beside the pitch point.
+"""
+
 _STIFFNESS = 10.0
 """Pressure by overlap, over modulus by edge: overlaps are then far below an edge, and iterations still end."""
 
@@ -224,6 +236,16 @@ class PairDecks(ABC):
         """Return the shafts that hold the gears of a posed mesh; gears without one are held rigidly."""
         return {}
 
+    def _sliding(self, position: LoadedPosition[PairContact]) -> Sliding | None:
+        """Return the friction of the flanks, with the turns (rad) by which they slide; None without friction."""
+        friction = self.task.friction
+        if friction is None or not (coefficient := friction.coefficient(self.cycle.model.force(self.task.torque))):
+            return None
+        way = (1 if friction.driver is Role.PINION else -1) * (1 if self.left else -1)
+        levers = [float(sliding_levers(self.pair, contact.place)) for contact in position.contacts if contact.share > FAIR]
+        turn = way * min(_SLIDING * coefficient * position.approach / max(min(levers), 1e-6), _MOST_TURN)
+        return Sliding(coefficient, turn, -turn / self.pair.gear_ratio, self.pair.centre_distance)
+
     def at(self, roll_angle: float) -> PairDeck:
         """Return the pair at a roll angle (deg). Raises ParameterError, GeometryError and SolverError."""
         position = self.cycle.solve(roll_angle)
@@ -231,7 +253,9 @@ class PairDecks(ABC):
         approach = position.rigid_approach + self.begun * elastic
         zones = PerGear(*(self.zones(roll_angle, role) for role in Role))  # what they refuse is neither gear's own
         meshes = PerGear.each(lambda role: self.mesh(role, zones.pick(role)))
-        mesh = posed(self.pair, meshes, roll_angle, approach, left=self.left)
+        sliding = self._sliding(position)
+        start = roll_angle if sliding is None else roll_angle - math.degrees(sliding.turn) * (1 if self.left else -1)
+        mesh = posed(self.pair, meshes, start, approach, left=self.left)
         edge = min(zone.edge for each in zones for zone in each.values())
         tips = {contact.tooth for contact in position.contacts if contact.arms.wheel != 1}
         flanks = [self.flanks(tooth, wheel_tip=tooth in tips) for tooth in self.teeth_near(roll_angle)]
@@ -245,10 +269,12 @@ class PairDecks(ABC):
             contact_stiffness=_STIFFNESS * self.task.materials.pinion.youngs_modulus / edge,
             width=self.width,
             shafts=self.shafts(mesh),
+            sliding=sliding,
         )
         made = PairDeck(self, deck, position, approach)
         words = pair_words(made.expected, distance=self.pair.centre_distance, base_radius=self.pair.pinion.base_diameter / 2)
         words += _ON_SHAFTS.splitlines() if deck.shafts else []
+        words += [] if sliding is None else _WITH_FRICTION.format(math.degrees(abs(sliding.turn))).splitlines()
         return replace(made, deck=replace(deck, words=words))
 
 
@@ -273,7 +299,11 @@ class PairDeck:
         near the edges of flanks.
         """
         of, pair = self.position, self.decks.pair
-        turn = (of.approach - self.approach) / self._base_radius
+        turn = (of.approach - self.approach) / self._base_radius + second_turn(self.deck)
+        sliding = {}
+        if self.deck.sliding is not None:
+            force = math.fsum(contact.force for contact in of.contacts) * (self.decks.width or 1.0)
+            sliding = {"normal_force": force, "wheel_torque": self._wheel_torque}
         return {
             "roll_angle": of.roll_angle,
             "torque": self.deck.torque,
@@ -292,6 +322,7 @@ class PairDeck:
                 for contact, flanks in ((each, self.decks.flanks(each.tooth)) for each in of.contacts)
             ],
             "root_stress": {role.value: root.stress for role, root in of.tension.items()},
+            **sliding,
             **self.decks.over_face(of),
         }
 
@@ -310,7 +341,7 @@ class PairDeck:
         moved = displacements(job.with_name(f"{job.name}.frd"), len(mesh.points))
         turn = math.copysign(printed.turn, printed.turn * self.deck.torque)
         return {
-            "transmission_error": (turn * self._base_radius + self.approach) * 1000,
+            "transmission_error": ((turn - second_turn(self.deck)) * self._base_radius + self.approach) * 1000,
             "reference_turn": printed.turn,
             "normal_force": total,
             "pairs": [
@@ -324,7 +355,23 @@ class PairDeck:
                 if force
             ],
             "root_stress": {role.value: self._root_tension(role, moved) for role in Role},
+            **({} if self.deck.sliding is None else {"wheel_torque": self._torque_on_wheel(printed.totals)}),
         }
+
+    @property
+    def _wheel_torque(self) -> float:
+        """Torque on the wheel (N·m) by our own check."""
+        ratio = self.position.torque_ratios.wheel * abs(self.decks.pair.gear_ratio)
+        return abs(self.deck.torque) * ratio
+
+    def _torque_on_wheel(self, totals: Mapping[str, Sequence[float]]) -> float:
+        """Return the torque (N·m) on the wheel by forces and moments on the slave surfaces that carry."""
+        torque = 0.0
+        for each in self.deck.flanks:
+            for total in (totals[slave] for slave in each.slaves if slave in totals and math.isfinite(totals[slave][0])):
+                own = total[5] - self.decks.pair.centre_distance * total[1]
+                torque += own if each.wheel_tip else -own
+        return abs(torque) / 1000
 
     @property
     def _base_radius(self) -> float:
@@ -335,6 +382,11 @@ class PairDeck:
         turn = math.radians(poses(decks.pair, angle, solid=decks.solid, left=decks.left).pick(role).rotation)
         teeth = (decks.tooth(role, contact.tooth) for contact in self.position.contacts)
         return max(decks.root_tension(self.deck.mesh, moved, role, tooth, turn) for tooth in teeth)
+
+
+def second_turn(deck: LoadedPairDeck) -> float:
+    """Return the turn (rad) of the pinion in the second step of a deck, positive in the sense of its torque."""
+    return 0.0 if deck.sliding is None else math.copysign(deck.sliding.turn, deck.sliding.turn * deck.torque)
 
 
 def held_nodes(mesh: ElementMesh, gear: str = "") -> Wholes:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from gearcad.check.friction import MeshLosses
 from gearcad.check.on_shafts import LoadOnShafts
 from gearcad.check.pictures import ToothSurface
 from gearcad.check.result import CheckResult, PlaneCheck, SolidCheck
@@ -67,6 +68,21 @@ def plot_load_share(result: PlaneCheck, ax: Axes | None = None) -> Axes:
         axes.plot(lengths[corner], shares[corner], "x", color=DARK, markersize=5, label="a corner touches")
     axes.set_ylim(0, 1.05)
     mark_path(axes, result.pair)
+    legend_above(axes, 2)
+    return axes
+
+
+def plot_losses(losses: MeshLosses, ax: Axes | None = None) -> Axes:
+    """Power that friction takes over one base pitch, in percent of that of the pinion, its mean, and Ohlendorf's."""
+    axes = prepared(ax, _ROLL, "power lost in %")
+    whole = abs(losses.torque) / 100
+    axes.plot(losses.roll_angles, losses.lost_torque / whole, color=SERIES[0], label="friction in the contact")
+    mean = losses.mean_torque / whole
+    axes.axhline(mean, color=SERIES[0], linestyle="--", linewidth=1.4, label=f"its mean: {mean:.3f} %")
+    if losses.ohlendorf is not None:
+        by_rule = 100 * losses.coefficient * losses.ohlendorf
+        axes.axhline(by_rule, color=SERIES[1], linestyle="--", linewidth=1.4, label=f"$\\mu H_V$, Ohlendorf: {by_rule:.3f} %")
+    axes.set_ylim(bottom=0)
     legend_above(axes, 2)
     return axes
 

@@ -34,6 +34,7 @@ from gearcad.plots.check import (
     plot_lines_share,
     plot_load_along_face,
     plot_load_share,
+    plot_losses,
     plot_mesh_stiffness,
     plot_root_along_face,
     plot_root_stress,
@@ -363,6 +364,7 @@ class CheckSections(ABC, Generic[Checked]):
             _common("Mesh stiffness", partial(plot_mesh_stiffness, of), "mesh_stiffness", of),
             _common("Transmission error", partial(plot_transmission_error, of), "transmission_error", of),
             _common("Root stress over the mesh", partial(plot_root_stress, of), "root_stress", of),
+            *([] if of.losses is None else [_common("Losses", partial(plot_losses, of.losses), "friction_losses", of)]),
         ]
 
     @property

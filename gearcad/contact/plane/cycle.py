@@ -29,6 +29,7 @@ from gearcad.material import Materials, of_both
 from gearcad.meshing.fem import field_gradients, node_places, shape_values
 from gearcad.meshing.outline import OutlineSide
 from gearcad.rating.contact_stress import half_width_by_curvature
+from gearcad.rating.friction import sliding_levers
 
 _RESOLVED = 4
 """Cells over a transition with which its pressure is right within 0.25 %."""
@@ -74,6 +75,11 @@ class PlanePairContact(PairContact):
     def arms(self) -> PerGear[float]:
         """Lever arms of the force on both gears, over their base radii."""
         return self.pair.arms
+
+    @property
+    def lever_arms(self) -> PerGear[float]:
+        """Lever arms of the force and its friction together, over the base radii."""
+        return self.pair.lever_arms
 
     @property
     def peak_pressure(self) -> float:
@@ -159,6 +165,7 @@ class PlaneCycle(LoadedCycle[PlanePair, PlanePosition, PlanePairContact]):
             compression=extreme(OutlineSide.RIGHT_FILLET),
             bore_tension=PerGear.each(lambda role: model.fillets.pick(role).bore_tension(loads.pick(role))),
             torques=PerGear.each(lambda role: _hub_torque(model, contacts, role)),
+            lost_torque=sum(_loss(model, contact) for contact in contacts) * model.width / 1000,
         )
 
     def contacts_at(self, angle: float) -> tuple[PlanePairContact, ...]:
@@ -176,6 +183,7 @@ def tooth_loads(contacts: tuple[PlanePairContact, ...], role: Role) -> list[Toot
             contact.force,
             contact.pair.arms.pick(role),
             contact.pair.tilts.pick(role),
+            contact.pair.friction,
         )
         for contact in contacts
     ]
@@ -191,7 +199,19 @@ def _hub_torque(model: PlanePair, contacts: tuple[PlanePairContact, ...], role: 
     """Return the torque (N·m) that the loads put on a gear's hub."""
     body = model.bodies.pick(role)
     each = (body.hub_torque(of.centre(role)) * (of.force * of.pair.arms.pick(role)) for of in contacts)
-    return sum(each) * model.width / 1000
+    rubbed = sum(
+        model.fillets.pick(role).friction_torque(of.centre(role)) * (of.force * of.pair.friction)
+        for of in contacts
+        if of.pair.friction
+    )
+    return (sum(each) + rubbed) * model.width / 1000
+
+
+def _loss(model: PlanePair, contact: PlanePairContact) -> float:
+    """Return the power that friction takes over the angular speed of the pinion (N mm per mm of width)."""
+    if not contact.pair.friction:
+        return 0.0
+    return contact.force * abs(contact.pair.friction) * float(sliding_levers(model.gear_pair, contact.place))
 
 
 def _contacts(model: PlanePair, solution: ContactSolution) -> tuple[PlanePairContact, ...]:

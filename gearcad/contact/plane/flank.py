@@ -32,11 +32,14 @@ if TYPE_CHECKING:
     from scipy.interpolate import CubicSpline
 
 
-def flamant_displacement(points: Floats, load_at: Floats, inward: Floats, elasticity: PlaneElasticity) -> Floats:
+def flamant_displacement(
+    points: Floats, load_at: Floats, inward: Floats, elasticity: PlaneElasticity, middle: float = 0.0
+) -> Floats:
     """Return the displacement (..., 2) in mm at `points` (..., 2) by 1 N per mm of width at `load_at` along the unit vector
     `inward`.
 
-    The constant of the logarithm is such that it is ln r with r in mm; at the load itself the value is left at 0.
+    The constant of the logarithm is such that it is ln r with r in mm; at the load itself the value is left at 0. A load
+    along the edge has its body around the angle `middle` (rad) from its direction.
     """
     e, nu = elasticity.modulus, elasticity.ratio
     away = points - load_at
@@ -46,6 +49,8 @@ def flamant_displacement(points: Floats, load_at: Floats, inward: Floats, elasti
     r = np.where(at_load, 1.0, r)
     cosine, sine, log = away @ inward / r, away @ across / r, np.log(r)
     angle = np.arctan2(sine, cosine)
+    if middle:  # the angle jumps outside the body
+        angle = middle + (angle - middle + np.pi) % (2 * np.pi) - np.pi
     radial = -(2 * cosine * log + (1 - nu) * angle * sine) / (np.pi * e)
     circumferential = (2 * nu * sine + 2 * log * sine - (1 - nu) * angle * cosine + (1 - nu) * sine) / (np.pi * e)
     along = radial * cosine - circumferential * sine
@@ -360,15 +365,18 @@ def solved_flank(flank: SectionFlank, ring: Ring, elasticity: PlaneElasticity) -
 
 
 def _unit_forces(
-    flank: SectionFlank, ring: Ring, elasticity: PlaneElasticity, points: Floats, directions: Floats
+    flank: SectionFlank, ring: Ring, elasticity: PlaneElasticity, points: Floats, directions: Floats, middle: float = 0.0
 ) -> tuple[Floats, Floats]:
-    """Nodal forces (2 n, m) of 1 N per mm at points (m, 2) along unit vectors, and the fields (2 n, m) to be taken off."""
+    """Nodal forces (2 n, m) of 1 N per mm at points (m, 2) along unit vectors, and the fields (2 n, m) to be taken off.
+
+    `middle` (rad) is that of `flamant_displacement`.
+    """
     mesh = ring.sector.mesh
     near = flank.near_elements(mesh)
     nodes = np.unique(mesh.triangles[near])
     singular = np.zeros((2 * len(mesh.points), len(points)))
     for column, (at, into) in enumerate(zip(points, directions, strict=True)):
-        moved = flamant_displacement(mesh.points[nodes], at, into, elasticity)
+        moved = flamant_displacement(mesh.points[nodes], at, into, elasticity, middle)
         singular[2 * nodes, column], singular[2 * nodes + 1, column] = moved.T
     forces = -_traction_forces(mesh, _boundary_edges(mesh.triangles[near]), points, directions)
     forces += element_forces(mesh.triangles[near], ring.sector.stiffness[near], singular)
@@ -428,13 +436,17 @@ def _traction_forces(mesh: SectorMesh, edges: Wholes, loads_at: Floats, inward: 
 
 
 class ToothLoad(NamedTuple):
-    """Tooth, roll length (mm) and force (N per mm of width); of a tip edge lever arm over the base radius, and tilt (rad)."""
+    """Tooth, roll length (mm) and force (N per mm of width); of a tip edge lever arm over the base radius, and tilt (rad).
+
+    `friction` is the force along the flank towards its tip, over the normal force.
+    """
 
     tooth: int
     length: float
     force: float
     arm: float = 1.0
     tilt: float = 0.0
+    friction: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -455,7 +467,13 @@ class Fillets:
                 total += self._splines[side][place](np.asarray(load.length)) * load.force
                 if load.tilt:
                     total += self._down_the_tip[side][place] * (load.tilt * load.force)
+                if load.friction:
+                    total += self._by_friction[0][side][place](np.asarray(load.length)) * (load.friction * load.force)
         return total
+
+    def friction_torque(self, length: float) -> float:
+        """Return the torque on the hub (N mm per mm of width) by 1 N per mm towards the tip at a roll length (mm)."""
+        return -float(np.interp(length, self.body.loads, self._by_friction[1]))
 
     def greatest(self, side: OutlineSide, loads: list[ToothLoad]) -> RootStress:
         """Return the largest tension on the left fillet, or compression on the right one, of tooth 0."""
@@ -481,7 +499,8 @@ class Fillets:
 
     def _all_round(self, side: OutlineSide, loads: list[ToothLoad], sign: int) -> Iterator[Floats]:
         """Yield the stresses of every tooth of the gear, with the key where it adds most tension (1) or compression (-1)."""
-        torque = self.body.flank.lever * sum(load.force * load.arm for load in loads)
+        arms = (load.arm + load.friction * abs(load.length) / self.body.flank.lever for load in loads)
+        torque = self.body.flank.lever * sum(load.force * arm for load, arm in zip(loads, arms, strict=True))
         by_key = torque * sign * (sign * self._by_key(side)).max(axis=0)
         for own in range(self.body.ring.support.teeth):
             yield self.stresses(side, seen_from(own, loads)) + by_key
@@ -539,6 +558,20 @@ class Fillets:
         hub_forces = body.ring.hub_forces(forces) if body.ring.support.floats else None
         found = self._stresses(body.ring.solve(forces)[0], hub_forces)
         return {side: stresses[..., 0] for side, stresses in found.items()}
+
+    @cached_property
+    def _by_friction(self) -> tuple[dict[OutlineSide, tuple[CubicSpline, ...]], Floats]:
+        """Stresses (points,) by 1 N per mm along the flank towards its tip, as `_splines`, and torques (m,) on the hub."""
+        from scipy.interpolate import CubicSpline
+
+        body, flank, loads = self.body, self.body.flank, self.body.loads
+        middle = -flank.upward * np.pi / 2
+        towards_tip = flank.towards_tip(loads)
+        forces, _ = _unit_forces(flank, body.ring, body.elasticity, flank.points(loads), towards_tip, middle)
+        hub_forces = body.ring.hub_forces(forces) if body.ring.support.floats else None
+        moved, torques = body.ring.solve(forces)
+        found = self._stresses(moved, hub_forces)
+        return {side: tuple(CubicSpline(loads, each.T) for each in teeth) for side, teeth in found.items()}, torques
 
     def _by_key(self, side: OutlineSide) -> Floats:
         """Return the stresses (teeth, points) of a side by a torque of 1 (N mm per mm) from the key,

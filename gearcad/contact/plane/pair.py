@@ -32,7 +32,7 @@ from gearcad.contact.shared.loaded import TOOTH_ORDER, FlexiblePair
 from gearcad.contact.shared.local_contact import onsets, start_distance
 from gearcad.contact.shared.tip_edge import tip_edges
 from gearcad.core.complementarity import complementary
-from gearcad.core.errors import GeometryError
+from gearcad.core.errors import GeometryError, SolverError
 from gearcad.core.records import Bools, Floats, Indices, PerGear, Role
 from gearcad.geometry import Gear, GearPair, RackPair
 from gearcad.geometry.gear import refuse_halves
@@ -40,6 +40,7 @@ from gearcad.material import Materials, of_both
 from gearcad.meshing.outline import MeshSizes
 from gearcad.meshing.sector import mesh_sector
 from gearcad.rating.contact_stress import half_width
+from gearcad.rating.friction import MeshFriction
 
 
 @dataclass(frozen=True)
@@ -55,7 +56,7 @@ class ContactCells:
     gap: Floats
 
 
-_NORMAL_ARMS, _NO_TILTS = PerGear(1.0, 1.0), PerGear(0.0, 0.0)
+_NORMAL_ARMS, _NO_TILTS, _NO_LEVERS = PerGear(1.0, 1.0), PerGear(0.0, 0.0), PerGear(0.0, 0.0)
 
 
 @dataclass(frozen=True)
@@ -64,6 +65,8 @@ class ContactPair:
 
     `added_curvature` (1/mm) is what modified flanks have more than the two involutes, where they come nearest. `arms` (over
     the base radii) and `tilts` (rad) are those of `TipEdges`. `flat`: the wheel is a rack, whose flanks are straight.
+    `friction` is the force along the flanks towards their tips over the normal force, `friction_levers` its lever arms, over
+    the base radii.
     """
 
     tooth: int
@@ -73,6 +76,14 @@ class ContactPair:
     arms: PerGear[float] = _NORMAL_ARMS
     tilts: PerGear[float] = _NO_TILTS
     flat: bool = False
+    friction: float = 0.0
+    friction_levers: PerGear[float] = _NO_LEVERS
+
+    @property
+    def lever_arms(self) -> PerGear[float]:
+        """Lever arms of the normal force and its friction together, over the base radii."""
+        levers = zip(self.arms, self.friction_levers, strict=True)
+        return PerGear(*(arm + self.friction * lever for arm, lever in levers))
 
     @property
     def plain_radius(self) -> float:
@@ -113,6 +124,7 @@ def solve_contact(
 
     What touches is sought from where it does in a solution `like` this one, if there is one. The gears are pressed by the
     torque on the pinion while the wheel stands: so the approach is the pinion's, and a cell takes part in both by its arm.
+    Friction takes part in the torque only: its force follows from the pressures, round by round.
     """
     sizes = [len(pair.cells.place) for pair in pairs]
     width = np.concatenate([np.full(size, pair.cells.width) for size, pair in zip(sizes, pairs, strict=True)])
@@ -120,9 +132,37 @@ def solve_contact(
     gap = np.concatenate([pair.cells.gap for pair in pairs])
     matrices = PerGear.each(lambda role: compliance_matrix(pairs, bodies.pick(role), role))
     touching = _middles(pairs) if like is None else _touching(pairs, like)
-    pressure, approach = complementary(matrices.pinion + matrices.wheel, gap * width, width * arms, force, touching)
-    parts = matrices.map(lambda matrix: float(pressure @ matrix @ pressure) / force)
+    if any(pair.friction for pair in pairs):
+        levers = np.concatenate([np.full(size, pair.lever_arms.pinion) for size, pair in zip(sizes, pairs, strict=True)])
+        rubbed = PerGear.each(lambda role: _rubbed_matrix(pairs, bodies.pick(role), role))
+        pressed = _with_friction(matrices, rubbed, (gap * width, width * arms, width * levers), force, touching)
+    else:
+        pressed = *complementary(matrices.pinion + matrices.wheel, gap * width, width * arms, force, touching), force
+        rubbed = None
+    pressure, approach, normal = pressed
+    by_all = matrices if rubbed is None else PerGear(*(one + other for one, other in zip(matrices, rubbed, strict=True)))
+    parts = by_all.map(lambda matrix: float(pressure @ matrix @ pressure) / normal)
     return ContactSolution(pairs, tuple(np.split(pressure, np.cumsum(sizes)[:-1])), approach, parts)
+
+
+def _with_friction(
+    matrices: PerGear[Floats], rubbed: PerGear[Floats], sizes: tuple[Floats, Floats, Floats], force: float, touching: Bools
+) -> tuple[Floats, float, float]:
+    """Return pressures (n,), the approach, and the sum of normal forces by their arms. Raises SolverError.
+
+    `sizes` are gap, arm and lever arm with friction, each times the width of a cell; `rubbed` are the displacements by
+    friction. These are found from the pressures of the round before.
+    """
+    gap, arms, levers = sizes
+    normal, before = force, np.zeros_like(gap)
+    both, by_friction = matrices.pinion + matrices.wheel, rubbed.pinion + rubbed.wheel
+    for _ in range(_FRICTION_ROUNDS):
+        pressure, approach = complementary(both, gap + by_friction @ before, arms, normal, touching)
+        change = float(np.abs(pressure - before).max())
+        normal, before, touching = force * float(arms @ pressure) / float(levers @ pressure), pressure, pressure > 0
+        if change < _FRICTION_SETTLED * float(pressure.max()):
+            return pressure * (force / float(levers @ pressure)), approach, normal
+    raise SolverError("the contact with friction did not settle: reduce check.friction")
 
 
 def _middles(pairs: tuple[ContactPair, ...]) -> Bools:
@@ -186,6 +226,32 @@ def _tilted_matrix(
     return result
 
 
+def _rubbed_matrix(pairs: tuple[ContactPair, ...], body: PlaneCompliance, role: Role) -> Floats:
+    """Return the displacement of a gear's flank over cell i, times its width, by the friction of the pressure on cell j.
+
+    (n, n) in mm²/MPa. By reciprocity a force along the flank at j moves i along its normal as a normal force at i moves j
+    towards the tip. Under a straight edge that is (1 - nu')/(2 E') towards the load, on both of its sides.
+    """
+    lengths = [pair.cells.lengths.pick(role) for pair in pairs]
+    begin = np.cumsum([0, *map(len, lengths)])
+    spans = [slice(first, last) for first, last in pairwise(begin.tolist())]
+    parts = body.parts_of_loads(np.concatenate(lengths))
+    straight = -(1 - body.elasticity.ratio) / (2 * body.elasticity.modulus)
+    matrix = np.zeros((begin[-1], begin[-1]))
+    for one, there in zip(pairs, spans, strict=True):
+        slid = body.along_by_unit_loads(one.cells.lengths.pick(role))
+        for other, here in zip(pairs, spans, strict=True):
+            apart = (one.tooth - other.tooth) * TOOTH_ORDER.pick(role)
+            if abs(apart) > body.neighbours:
+                continue
+            block = slid[:, apart + body.neighbours] @ parts[here].T
+            if body.edge_taken_off and not apart:
+                up = TOOTH_ORDER.pick(role) * one.cells.place
+                block = block + straight * np.sign(up[:, None] - up)
+            matrix[here, there] += one.friction * block.T * (one.cells.width * other.cells.width)
+    return matrix
+
+
 def _edge_block(cells: ContactCells, body: PlaneCompliance) -> Floats:
     """Return the straight edge's part: k(d) integrated over both cells in closed form."""
     log = -2 / (np.pi * body.elasticity.modulus)
@@ -210,6 +276,9 @@ def _second(x: Floats) -> Floats:
     result: Floats = np.where(size > 0, x * x / 2 * (np.log(np.where(size > 0, size, 1.0)) - 1.5), 0.0)
     return result
 
+
+_FRICTION_ROUNDS, _FRICTION_SETTLED = 60, 1e-12
+"""Rounds of finding friction from pressures, and the change of a pressure, over the greatest, at which they have settled."""
 
 _FEWEST = 6
 """Cells of a pair of flanks, however narrow its window."""
@@ -324,6 +393,11 @@ class PlanePair(FlexiblePair[PlaneCompliance]):
     """A pair of sections: both bodies in the transverse section through the middle of the common face width."""
 
     known: KnownContacts = field(default_factory=KnownContacts, repr=False)
+    friction: MeshFriction | None = None
+
+    def rubbing(self, friction: MeshFriction | None) -> PlanePair:
+        """Return the same pair with another friction of its flanks, None for none."""
+        return self if friction == self.friction else replace(self, friction=friction, known=KnownContacts())
 
     @property
     def repeats(self) -> bool:
@@ -394,14 +468,27 @@ class PlanePair(FlexiblePair[PlaneCompliance]):
         pairs = contact_pairs(self.line, self.roll_length(roll_angle), span, cells, farthest, least_width, single=single)
         if not pairs:
             raise GeometryError("roll_angle", roll_angle, "must be an angle at which teeth can touch", "deg")
+        if self.friction is not None:
+            pairs = tuple(self._rubbed(pair, self.friction, force) for pair in pairs)
         return solve_contact(pairs, self.bodies, force, like)
+
+    def _rubbed(self, contact: ContactPair, friction: MeshFriction, force: float) -> ContactPair:
+        """Return a pair of flanks with the friction under a transverse force (N per mm) of all."""
+        signed = float(friction.signed(self.gear_pair, contact.lengths.pinion, force))
+        levers = (length / flank.base_radius for length, flank in zip(contact.lengths, self.line.flanks, strict=True))
+        return replace(contact, friction=signed, friction_levers=PerGear(*levers))
 
     def _farthest(self, roll_angle: float, force: float, single: bool) -> float:
         """Return the gap (mm) from which flanks can touch as teeth bend."""
         return self.rigid_approach(roll_angle, single=single) + force / _SOFT
 
     def single_stiffness(self, torque: float, count: int = _SINGLE) -> float:
-        """Return the greatest stiffness (N/(mm·µm)) of one pair of teeth alone, at `count` places of its path of contact."""
+        """Return the greatest stiffness (N/(mm·µm)) of one pair of teeth alone, at `count` places of its path of contact.
+
+        It is that without friction.
+        """
+        if self.friction is not None:
+            return self.rubbing(None).single_stiffness(torque, count)
         lengths = np.linspace(*self.pair.usable_path, count + 2)[1:-1]
         approaches = [
             self.solve(angle, torque, single=True).approach - self.rigid_approach(angle, single=True)

@@ -495,6 +495,11 @@ class PairContact(ABC):
 
     @property
     @abstractmethod
+    def lever_arms(self) -> PerGear[float]:
+        """Lever arms of the force and its friction together, over the base radii."""
+
+    @property
+    @abstractmethod
     def interior_pressure(self) -> float | None:
         """Greatest pressure (MPa) away from all edges of both flanks; None if all of the contact is near them."""
 
@@ -510,7 +515,8 @@ class LoadedPosition(ABC, Generic[C]):
     `force` is the normal force in the transverse section (N per mm of common face width), `torques` (N·m) act on the hubs.
     `tension` and `compression` are the greatest of the roots, `bore_tension` (MPa) that of a bore that nothing keeps round.
     `support_approach` (mm) is the part of the approach by which the supports of the gears give way under load, `support_turn`
-    (mm) that of their twist up to the middles of the faces.
+    (mm) that of their twist up to the middles of the faces. `lost_torque` (N·m) is the power that friction takes over the
+    angular speed of the pinion.
     """
 
     roll_angle: float
@@ -525,14 +531,15 @@ class LoadedPosition(ABC, Generic[C]):
     torques: PerGear[float]
     support_approach: float = field(default=0.0, kw_only=True)
     support_turn: float = field(default=0.0, kw_only=True)
+    lost_torque: float = field(default=0.0, kw_only=True)
 
     @property
     def torque_ratios(self) -> PerGear[float]:
         """Torque on each gear over that of the force at its base radius: the wheel's is other than 1 where edges of tips touch.
 
-        There the teeth do not turn the wheel evenly, and the ratio of torques is that of the speeds.
+        There the teeth do not turn the wheel evenly, and the ratio of torques is that of the speeds. Friction takes its part.
         """
-        turning = PerGear.each(lambda role: sum(contact.force * contact.arms.pick(role) for contact in self.contacts))
+        turning = PerGear.each(lambda role: sum(contact.force * contact.lever_arms.pick(role) for contact in self.contacts))
         return PerGear(1.0, turning.wheel / turning.pinion)
 
     @property

@@ -25,6 +25,7 @@ from gearcad.material import Material
 from gearcad.meshing.bodies.element_mesh import vtk_elements
 from gearcad.meshing.fem import BY_LEVELS, SWEPT, Element, field_gradients, node_places, quadrature, shape_values
 from gearcad.meshing.files import write_vtu
+from gearcad.rating.friction import sliding_levers
 
 
 @dataclass(frozen=True)
@@ -73,6 +74,13 @@ class SolidPairContact(PairContact):
     def arms(self) -> PerGear[float]:
         """Lever arms of the force on both gears, over their base radii: the mean of the cells by their forces."""
         return self.line.edges.arms.map(lambda arms: float((self.forces * arms).sum() / self.forces.sum()))
+
+    @property
+    def lever_arms(self) -> PerGear[float]:
+        """Lever arms of the force and its friction together, over the base radii, as `arms`."""
+        levers = zip(self.line.edges.arms, self.line.friction_levers, strict=True)
+        both = (np.asarray(arm + self.line.friction * lever) for arm, lever in levers)
+        return PerGear(*(float((self.forces * arms).sum() / self.forces.sum()) for arms in both))
 
     @property
     def interior(self) -> Bools:
@@ -165,6 +173,7 @@ class SolidCycle(LoadedCycle[SolidPair, SolidPosition, SolidPairContact]):
             torques=PerGear.each(lambda role: _hub_torque(model.bodies.pick(role), contacts, role)),
             support_approach=solution.by_supports / flat,
             support_turn=solution.turn_of_supports / flat,
+            lost_torque=sum(_loss(model, contact) for contact in contacts) / 1000,
         )
 
     def contacts_at(self, angle: float) -> tuple[SolidPairContact, ...]:
@@ -223,20 +232,37 @@ class SolidCycle(LoadedCycle[SolidPair, SolidPosition, SolidPairContact]):
 
 def tooth_loads(model: SolidPair, contacts: tuple[SolidPairContact, ...], role: Role) -> list[ToothForces]:
     """For each tooth of a gear in contact: its number, as the gear's own teeth follow each other, and the force (N) at each
-    unit load's place.
+    unit load's place; with friction those along the flank after them.
     """
-    body, sense = model.bodies.pick(role), TOOTH_ORDER.pick(role)
-    return [
-        (sense * contact.tooth, body.load_weights(contact.line.places.pick(role)).T @ contact.forces) for contact in contacts
-    ]
+    body, sense, rubbed = model.bodies.pick(role), TOOTH_ORDER.pick(role), _rubbed(contacts)
+    found = []
+    for contact in contacts:
+        weights = body.load_weights(contact.line.places.pick(role)).T
+        forces = weights @ contact.forces
+        forces = np.r_[forces, weights @ (contact.forces * contact.line.friction)] if rubbed else forces
+        found.append((sense * contact.tooth, forces))
+    return found
+
+
+def _rubbed(contacts: tuple[SolidPairContact, ...]) -> bool:
+    """Return whether there is friction."""
+    return any(np.any(contact.line.friction) for contact in contacts)
+
+
+def _loss(model: SolidPair, contact: SolidPairContact) -> float:
+    """Return the power that friction takes over the angular speed of the pinion (N mm)."""
+    levers = sliding_levers(model.pair, contact.line.nominal)
+    return float((contact.forces * np.abs(contact.line.friction) * levers).sum())
 
 
 def _hub_torque(body: SolidCompliance, contacts: tuple[SolidPairContact, ...], role: Role) -> float:
     """Return the torque (N·m) that the loads put on the hub of a gear, those on tip edges by their lever arms."""
-    total = 0.0
+    total, rubbed = 0.0, _rubbed(contacts)
     for contact in contacts:
-        forces = contact.forces * contact.line.edges.arms.pick(role)
-        total += float((body.load_weights(contact.line.places.pick(role)).T @ forces) @ -body.torques)
+        weights = body.load_weights(contact.line.places.pick(role)).T
+        total += float((weights @ (contact.forces * contact.line.edges.arms.pick(role))) @ -body.torques)
+        if rubbed:
+            total += float((weights @ (contact.forces * contact.line.friction)) @ -body.by_friction[1])
     return total / 1000
 
 

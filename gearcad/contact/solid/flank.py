@@ -23,6 +23,7 @@ from gearcad.core.runtime import Share, unheard
 from gearcad.geometry import Gear
 from gearcad.material import Material
 from gearcad.meshing.outline import OutlineSide
+from gearcad.meshing.quads import edges_of_chain
 from gearcad.meshing.sector import SweptMesh, turned
 
 if TYPE_CHECKING:
@@ -300,7 +301,9 @@ _ROUNDED = 9
 
 
 ToothForces = tuple[int, Floats]
-"""Tooth, and the force (N) at each unit load's place (see SolidCompliance.load_weights)."""
+"""Tooth, and the force (N) at each unit load's place (see SolidCompliance.load_weights): those normal to the flank and, where
+there is friction, after them those along it towards the tip.
+"""
 
 _ROWS, _FEWEST_ROWS = 8, 2
 """Unit loads up the flank, and the least between which a spline can run."""
@@ -395,6 +398,26 @@ class SolidCompliance(FlankCompliance):
             tooth: _normal(mesh, self.displacements[self.neighbours + tooth][place], on_flank, towards_tip) for tooth in teeth
         }
 
+    @cached_property
+    def friction_forces(self) -> NodalForces:
+        """Forces of 1 N along the flank towards its tip at each place of `loads`: on the nodes that stand there."""
+        mesh, places = self.body.sector.mesh, self.loads.places
+        chain = mesh.side(OutlineSide.LEFT_FLANK)[::-1]
+        edges, rows = edges_of_chain(chain), np.searchsorted(self.grid.lengths, self.loads.lengths) // 2
+        faces = (mesh.side_faces(edges, layer) for layer in range(mesh.layers))
+        at = np.concatenate([np.r_[each[:, 7], each[-1:, 5]][rows] for each in faces])
+        nodes, place = np.unique(at, return_inverse=True)
+        vectors = np.zeros((len(nodes), 3, len(at)))
+        vectors[place, :, np.arange(len(at))] = self.flank.towards_tip(places)
+        return NodalForces(nodes, mesh.to_turning(vectors, nodes))
+
+    @cached_property
+    def by_friction(self) -> tuple[Floats, Floats]:
+        """Displacements (teeth, n, 3, loads) in mm as `displacements`, and torques (loads,) as `torques`, by these forces."""
+        forces = self.friction_forces
+        moved = self.body.solve(forces.dofs, self.surface, at=forces.nodes)
+        return moved.displacements.reshape(-1, len(self.surface), 3, len(moved.torques)), moved.torques
+
     def taken_off_along(self, places: Places) -> Floats:
         """Return the displacements (n, n) in mm towards the tip at places of the flank by the fields that 1 N at each has."""
         return TakenOff(self.flank, self.material).moved_along(self.flank.towards_tip(places), places, places)
@@ -409,6 +432,10 @@ class SolidCompliance(FlankCompliance):
         """Return the displacements (n, 3, loads) in mm of the nodes `surface` of tooth k, in fixed axes."""
         return self.body.sector.mesh.to_space(self.displacements[self.neighbours + tooth], self.surface)
 
+    def friction_displacements(self, tooth: int) -> Floats:
+        """Return the displacements (n, 3, loads) in mm of the same nodes by 1 N along the flank of tooth 0 at each place."""
+        return self.body.sector.mesh.to_space(self.by_friction[0][self.neighbours + tooth], self.surface)
+
     def tooth_displacements(self, tooth: int, loads: Sequence[ToothForces]) -> Floats:
         """Return the displacements (nodes, 3) in mm of all nodes of a tooth, in fixed axes, by loads on it and its neighbours.
 
@@ -417,12 +444,13 @@ class SolidCompliance(FlankCompliance):
         mesh = self.body.sector.mesh
         # A load on another tooth is seen from this one as this one sees a load on tooth 0.
         near = [(tooth - loaded, force) for loaded, force in loads if abs(tooth - loaded) <= self.neighbours]
-        together = self.forces.together(np.stack([force for _, force in near], -1))
-        moved = self.body.solve(together.dofs, at=together.nodes)
-        found = sum(
-            (moved.displacements[self.neighbours + apart][:, column] for column, (apart, _) in enumerate(near)),
-            start=np.zeros(3 * mesh.nodes),
-        )
+        acting, found = np.stack([force for _, force in near], -1), np.zeros(3 * mesh.nodes)
+        normal, along = acting[: self.unit_loads], acting[self.unit_loads :]
+        for forces, shares in ((self.forces, normal), (self.friction_forces, along) if len(along) else (self.forces, along)):
+            if len(shares):
+                together = forces.together(shares)
+                moved = self.body.solve(together.dofs, at=together.nodes)
+                found += sum(moved.displacements[self.neighbours + apart][:, i] for i, (apart, _) in enumerate(near))
         return mesh.to_space(found.reshape(-1, 3))
 
     def torque(self, places: Places) -> Floats:
@@ -431,12 +459,20 @@ class SolidCompliance(FlankCompliance):
 
 
 def solid_compliance(
-    gear: Gear, body: SolidBody, material: Material, start: float, tell: Share = unheard, *, fields: bool = False
+    gear: Gear,
+    body: SolidBody,
+    material: Material,
+    start: float,
+    tell: Share = unheard,
+    *,
+    fields: bool = False,
+    along: bool = False,
 ) -> SolidCompliance:
     """Solve the body for unit loads on some rows and columns of the flank, from the roll length `start` (mm) up.
 
-    With `fields` the body keeps its factors for the fields of its teeth, else it is condensed again for the first one. `tell`
-    hears how much of what comes before the body's own part is done: the fields of the loads.
+    With `fields` the body keeps its factors for the fields of its teeth, else it is condensed again for the first one. With
+    `along` it is solved for forces along the flank, too. `tell` hears how much of what comes before the body's own part is
+    done: the fields of the loads.
     """
     sector = body.sector
     mesh, flank = sector.mesh, SolidFlank(gear, sector.mesh.rate)
@@ -447,8 +483,6 @@ def solid_compliance(
     rest = remaining(flank, mesh, material, _near_quads(gear, mesh), places, points, tell)
     surface = _surface(mesh, free=sector.free)
     moved = body.solve(rest.forces.dofs, surface, at=rest.forces.nodes)
-    if not fields:
-        body.let_go()
     displacements = moved.displacements.reshape(-1, len(surface), 3, len(places[0]))
     place, normal = np.searchsorted(surface, on_flank), flank.inward(grid.places)
     found = {
@@ -461,7 +495,12 @@ def solid_compliance(
     # The elements of a bore have all of what is far from the load.
     on_tooth = np.flatnonzero(~np.isin(surface, mesh.over(mesh.side(OutlineSide.HELD))))
     displacements[body.neighbours][on_tooth] -= rest.taken_off_at(surface[on_tooth])
-    return SolidCompliance(flank, body, material, loads, grid, found, surface, displacements, rest.forces, moved.torques)
+    result = SolidCompliance(flank, body, material, loads, grid, found, surface, displacements, rest.forces, moved.torques)
+    if along:
+        _ = result.by_friction
+    if not fields:
+        body.let_go()
+    return result
 
 
 def _surface(mesh: SweptMesh, *, free: bool) -> Wholes:

@@ -43,6 +43,9 @@ _LEAST_BEND = 0.05
 """Share of the exact flanks' curvature that a hollow modification leaves at the least."""
 
 
+_NO_LEVERS: PerGear[Floats | float] = PerGear(0.0, 0.0)
+
+
 @dataclass(frozen=True)
 class ContactLine:
     """One pair of flanks: tooth `tooth` of the pinion (0 is the middle one), cell by cell along the face width.
@@ -52,7 +55,8 @@ class ContactLine:
     line of action the flanks are nearest (0 on the line of contact, else an edge touches), `gap` (n,) the transverse gap of the
     exact involutes in mm, `points` (n, 3) on the pinion's flank, `slope` (mm per mm) that of `nominal` over `across`. `edges`
     are the forces of the cells (n,), as they lie in the transverse section. `supported` (n,) is the gap along the normal that
-    the supports of the gears leave without load, in mm.
+    the supports of the gears leave without load, in mm. `friction` (n,) is the force along the flanks towards their tips over
+    the normal force, `friction_levers` its lever arms over those of normal forces.
     """
 
     tooth: int
@@ -67,6 +71,8 @@ class ContactLine:
     slope: float
     edges: TipEdges
     supported: Floats | float = 0.0
+    friction: Floats | float = 0.0
+    friction_levers: PerGear[Floats | float] = _NO_LEVERS
 
     @property
     def middle(self) -> float:

@@ -19,6 +19,7 @@ from gearcad.contact.solid.flank import SolidCompliance, solid_compliance
 from gearcad.contact.solid.line_contact import LineSolution, Responses, contact_lines, gaps, near_path, responses, solve_lines
 from gearcad.contact.solid.relief_start import press_starts
 from gearcad.contact.solid.root import SolidFillets, solid_fillets
+from gearcad.contact.solid.rubbing import KnownSlips, pressed_with_friction, slips, with_friction
 from gearcad.core.errors import GeometryError, SolverError
 from gearcad.core.records import PerGear, Role
 from gearcad.core.runtime import Expected, Share, unheard
@@ -31,6 +32,7 @@ from gearcad.meshing.quads import mesh_quads
 from gearcad.meshing.sector import SweptMesh, sweep
 from gearcad.mounting import MOST_DEVIATION, Mounting, SupportCompliance
 from gearcad.rating.contact_stress import reduced_modulus
+from gearcad.rating.friction import MeshFriction
 
 POSITION_SECONDS = 0.025
 """Time (s) for one position of a mesh cycle."""
@@ -193,13 +195,20 @@ class SolidPair(FlexiblePair[SolidCompliance]):
     supports: SupportCompliance | None = field(default=None, repr=False)
     known: KnownResponses = field(default_factory=KnownResponses, repr=False)
     solved: KnownSolutions = field(default_factory=KnownSolutions, repr=False)
+    friction: MeshFriction | None = None
+    slips: KnownSlips = field(default_factory=KnownSlips, repr=False)
+
+    def rubbing(self, friction: MeshFriction | None) -> SolidPair:
+        """Return the same pair with another friction of its flanks, None for none; what is known of its bodies is shared."""
+        return self if friction == self.friction else replace(self, friction=friction, solved=KnownSolutions())
 
     def remade(self, pair: GearPair, mounting: Mounting) -> SolidPair:
         """Return the same bodies with other modifications of the flanks, or another mounting, of an otherwise equal pair."""
         mounted = mounting.mounted(pair)
-        known = self.known if mounted.centre_distance == self.pair.centre_distance else KnownResponses()
+        same = mounted.centre_distance == self.pair.centre_distance
+        known, slid = (self.known, self.slips) if same else (KnownResponses(), KnownSlips())
         line = line_of_action(mounted)
-        return replace(self, pair=mounted, mounting=mounting, line=line, known=known, solved=KnownSolutions())
+        return replace(self, pair=mounted, mounting=mounting, line=line, known=known, slips=slid, solved=KnownSolutions())
 
     def with_flanks(self, pair: GearPair) -> SolidPair:
         """Return the same bodies with other modifications of an otherwise equal pair, as it is mounted."""
@@ -285,15 +294,28 @@ class SolidPair(FlexiblePair[SolidCompliance]):
         force, farthest, mounting = self.force(torque), self.farthest(torque), self._mounted(torque)
         while True:
             given = self.responses(roll_angle, farthest, single=single)
-            gap = gaps(given.lines, self.pair, mounting, self.helix)
-            found = solve_lines(given, gap, force * self.width / math.cos(self.helix))
-            found = press_starts(self.pair, self.line, mounting, self.helix, found)
+            found = self._pressed(given, mounting, force, (round(roll_angle, 9), farthest, single))
             # What supports move all cells alike brings no others into contact.
             alike = 0.0 if given.supports is None else float((given.supports.matrix @ found.forces).min())
             if found.approach - found.rigid - alike + self._deviation < farthest * math.cos(self.helix):
                 self._require_in_range(found, torque)
                 return found
             farthest *= 2
+
+    def _pressed(self, given: Responses, mounting: Mounting, force: float, known: tuple[float, float, bool]) -> LineSolution:
+        """Return the contact under a transverse force (N per mm); `slips` are known by `known`."""
+
+        def press(given: Responses, normal: float) -> LineSolution:
+            found = solve_lines(given, gaps(given.lines, self.pair, mounting, self.helix), normal)
+            return press_starts(self.pair, self.line, mounting, self.helix, found)
+
+        normal = force * self.width / math.cos(self.helix)
+        if self.friction is None or not self.friction.coefficient(force):
+            return press(given, normal)
+        lines = with_friction(given.lines, self.pair, self.line, self.friction, force, self.helix)
+        if known not in self.slips:
+            self.slips[known] = slips(lines, self.bodies)
+        return pressed_with_friction(replace(given, lines=lines), self.slips[known], press, normal)
 
     def _require_in_range(self, found: LineSolution, torque: float) -> None:
         """Raise SolverError where the contact is wider than a tooth is deep, or than its flanks are curved."""
@@ -316,8 +338,10 @@ class SolidPair(FlexiblePair[SolidCompliance]):
 
     def single_stiffness(self, torque: float, count: int = _SINGLE) -> float:
         """Return the greatest stiffness (N/(mm·µm)) of one pair of teeth alone, at `count` places while its line crosses the
-        flanks.
+        flanks; that without friction.
         """
+        if self.friction is not None:
+            return self.rubbing(None).single_stiffness(torque, count)
         (first, last), reach = self.pair.usable_path, self.width * abs(math.tan(self.helix)) / 2
         lengths = np.linspace(first - reach, last + reach, count + 2)[1:-1]
         solved = (self.solve(angle, torque, single=True) for angle in self.roll_angle(lengths).tolist())
@@ -335,6 +359,7 @@ def solid_pair(
     mounting: Mounting | None = None,
     cells: int = 60,
     fields: bool = False,
+    friction: MeshFriction | None = None,
     tell: Share = unheard,
 ) -> SolidPair:
     """Mesh, condense and solve both gears, each on all cores; a line of contact has `cells` over the common face width.
@@ -361,9 +386,10 @@ def solid_pair(
             condensed=heard.condensation,
             solved=heard.solution,
         )
-        jobs.append((heard, partial(solid_compliance, gear, solid, of, start, heard.fields, fields=fields)))
+        kept = {"fields": fields, "along": friction is not None and friction.reference > 0}
+        jobs.append((heard, partial(solid_compliance, gear, solid, of, start, heard.fields, **kept)))
     bodies, mounted = PerGear(*_one_by_one(jobs, tell)), mounting.mounted(pair)
-    return SolidPair(mounted, line_of_action(mounted), bodies, mounting, cells, bodies.map(solid_fillets))
+    return SolidPair(mounted, line_of_action(mounted), bodies, mounting, cells, bodies.map(solid_fillets), friction=friction)
 
 
 def expected_bodies(pair: GearPair, body: BodyModel, sizes: SolidSizes, *, fields: bool = False) -> Expected:

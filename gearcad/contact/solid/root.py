@@ -89,11 +89,22 @@ class SolidFillet:
     def state(self, loads: list[ToothForces]) -> FilletState:
         """Return the stresses on tooth 0 by loads on it and its neighbours."""
         along, axial, shear = sum(
-            (self._responses[-tooth] @ forces for tooth, forces in loads if -tooth in self._responses),
+            (self._stressed(-tooth, forces) for tooth, forces in loads if -tooth in self._responses),
             start=np.zeros((3, len(self.heights), len(self.radii))),
         )
         middle, radius = (along + axial) / 2, np.hypot((along - axial) / 2, shear)
         return FilletState(middle + radius, middle - radius)
+
+    def _stressed(self, tooth: int, forces: Floats) -> Floats:
+        """Return the stresses (3, heights, along) of tooth k by forces on tooth 0 as those of `ToothForces`."""
+        count = self.body.unit_loads
+        normal: Floats = self._responses[tooth] @ forces[:count]
+        return normal if len(forces) == count else normal + self._by_friction[tooth] @ forces[count:]
+
+    @cached_property
+    def _by_friction(self) -> dict[int, Floats]:
+        """Stresses as `_responses`, by forces along the flank."""
+        return {tooth: self._stresses(self.body.friction_displacements(tooth)) for tooth in self._responses}
 
     @cached_property
     def _faces(self) -> Wholes:

@@ -1,0 +1,140 @@
+"""Friction of flanks that slide on each other: its coefficient by a number or a law, its sense, the power lost, loss factors.
+
+A pair of flanks slides with v_g = omega_1 (1 + 1/u) |g|, g the distance from the pitch point along the line of action. The
+friction on both gears points to their tips while contact is on the addendum of the gear that drives, and to their roots
+before the pitch point. A normal force N on a flank with the roll length rho so has the moment N (r_b + f rho), f the
+coefficient of friction with that sign.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from gearcad.core.errors import ParameterError
+from gearcad.core.records import Floats, PerGear, Role
+from gearcad.geometry import GearPair
+from gearcad.load import Load
+from gearcad.material import Material
+from gearcad.rating.options import RatingOptions
+from gearcad.rating.scuffing import RZ_OVER_RA, USUAL_ROUGHNESS, scuffing
+from gearcad.rating.scuffing_temperatures import LEAST_LOAD
+
+FrictionLaw = Literal["flash", "integral", "niemann"]
+"""Mean coefficients over the path of contact: of ISO/TR 13989-1 and -2, and of Niemann and ISO/TR 14179-2 (unconfirmed)."""
+
+LAW_WORDS: dict[str, str] = {
+    "flash": "mean coefficient of ISO/TR 13989-1 (flash temperature)",
+    "integral": "mean coefficient of ISO/TR 13989-2 (integral temperature)",
+    "niemann": "mean coefficient of Niemann and ISO/TR 14179-2, unconfirmed",
+    "constant": "constant coefficient",
+}
+
+_EXPONENT = 0.2
+"""Power of the load with which the coefficients of all laws grow."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class MeshFriction:
+    """Friction of a mesh: a coefficient `reference` under the transverse force `reference_force` (N per mm of width).
+
+    It goes with the `exponent` of the force, which counts from `least_force` on; 0 is a constant coefficient. `driver` is the
+    gear that drives, `law` a key of LAW_WORDS.
+    """
+
+    reference: float
+    driver: Role = Role.PINION
+    law: str = "constant"
+    exponent: float = 0.0
+    reference_force: float = 1.0
+    least_force: float = 0.0
+
+    def coefficient(self, force: float) -> float:
+        """Return the mean coefficient of friction under a transverse force (N per mm of width)."""
+        if not self.exponent:
+            return self.reference
+        counted, known = (max(each, self.least_force) for each in (force, self.reference_force))
+        return float(self.reference * (counted / known) ** self.exponent)
+
+    def signed(self, pair: GearPair, places: Floats | float, force: float) -> Floats:
+        """Return the coefficients (n,) at places (mm from T1): positive where friction points to the tips of both gears."""
+        way = 1.0 if self.driver is Role.PINION else -1.0
+        result: Floats = way * self.coefficient(force) * np.sign(np.asarray(places) - pair.path_of_contact.C)
+        return result
+
+
+class _Application:
+    """Load factors of which all but K_A are 1, as the check has them."""
+
+    mesh_load = dynamic = face_flank = transverse_flank = 1.0
+
+    def __init__(self, application: float) -> None:
+        self.application = application
+
+
+def mesh_friction(
+    pair: GearPair, materials: PerGear[Material], load: Load, friction: float | FrictionLaw, options: RatingOptions
+) -> MeshFriction:
+    """Return the friction of a pair under its load, by a number or a law; of load factors laws have K_A alone.
+
+    The pinion drives, or the wheel where the torque is against the speed. Raises ParameterError where a law has no coefficient.
+    """
+    driver = Role.WHEEL if load.torque * load.speed < 0 else Role.PINION
+    if not isinstance(friction, str):
+        return MeshFriction(reference=float(friction), driver=driver)
+    base = pair.pinion.base_diameter / 2
+    force = abs(load.torque) * load.application_factor * 1000 / base / pair.common_width.width
+    rated = scuffing(pair, materials, load, _Application(load.application_factor), options, driver)
+    if rated.integral is None or not force:
+        why = rated.reason or "without torque there is none"
+        raise ParameterError("check.friction", friction, f"must be a number: {why}")
+    coefficient, least = float(rated.integral.friction), 0.0
+    if friction == "integral":
+        least = LEAST_LOAD * force / float(rated.integral.specific_load)
+    elif friction == "flash":
+        if rated.flash is None:
+            raise ParameterError("check.friction", friction, 'must be a number, "integral" or "niemann" for this contact ratio')
+        coefficient = rated.flash.friction
+    else:
+        mesh = rated.integral.mesh
+        rolling = 2 * math.pi * abs(load.speed) / 30_000 * base * math.tan(math.radians(mesh.working_pressure_angle))
+        roughness = sum(gear.flank_roughness or USUAL_ROUGHNESS for gear in pair.gears) / 2 / RZ_OVER_RA
+        coefficient = mean_coefficient(
+            force, rolling, float(mesh.pitch_radius), rated.oil.dynamic_viscosity, roughness, rated.oil.lubricant_factor
+        )
+    return MeshFriction(
+        reference=coefficient, driver=driver, law=friction, exponent=_EXPONENT, reference_force=force, least_force=least
+    )
+
+
+def mean_coefficient(force: float, sum_velocity: float, radius: float, viscosity: float, roughness: float, oil: float) -> float:
+    """Return mu_m = 0.048 (F_bt/(b v_sumC rho_C))^0.2 eta^-0.05 Ra^0.25 X_L.
+
+    By G. Niemann and H. Winter, and ISO/TR 14179-2, as remembered: unconfirmed. `force` F_bt/b in N/mm, `sum_velocity` of
+    both flanks at the pitch point in m/s, reduced `radius` there in mm, `viscosity` in mPa s, `roughness` Ra in µm, `oil` X_L.
+    """
+    return float(0.048 * (force / (sum_velocity * radius)) ** 0.2 * viscosity**-0.05 * roughness**0.25 * oil)
+
+
+def sliding_levers(pair: GearPair, places: Floats | float) -> Floats:
+    """Return the sliding velocity over the angular speed of the pinion (mm) at places (n,) in mm from T1."""
+    result: Floats = np.abs((1 + 1 / pair.gear_ratio) * (np.asarray(places) - pair.path_of_contact.C))
+    return result
+
+
+def ohlendorf_loss_factor(pair: GearPair) -> float | None:
+    """Return H_V = pi (u + 1)/(z_1 u cos beta_b) (1 - eps_alpha + eps_1^2 + eps_2^2); None where it does not hold.
+
+    H. Ohlendorf, Munich 1958: one pair of teeth carries all of the load, two carry half each. The pitch point must lie in
+    the path of contact, and the contact ratio between 1 and 2.
+    """
+    path, pitch = pair.path_of_contact, pair.pinion.transverse_base_pitch
+    first, second = (path.E - path.C) / pitch, (path.C - path.A) / pitch
+    if not 1 <= first + second <= 2 or min(first, second) < 0:
+        return None
+    ratio, helix = pair.gear_ratio, math.radians(pair.pinion.base_helix_angle)
+    sliding = math.pi * (ratio + 1) / (pair.pinion.teeth * ratio * math.cos(helix))
+    return sliding * (1 - (first + second) + first**2 + second**2)
