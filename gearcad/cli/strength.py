@@ -245,9 +245,23 @@ def strength_lines(rating: StrengthRating) -> Iterator[str]:
     for group, factors in rating.factors.items():
         yield from _wrapped(group.value, (_factor(symbol, value, names) for symbol, value in factors.items()))
     yield from _plastic(rating, document)
+    yield from _wrapped("efficiency", _efficiency(rating))
     for words, key in (("assumed", "assumed"), ("unconfirmed", "verify")):
         yield from _wrapped(words, document[key], "; ")
     yield from _wrapped("not judged", _not_judged(document["not_judged"]), "; ")
+
+
+def _efficiency(rating: StrengthRating) -> Iterator[str]:
+    """Yield the efficiency of the mesh with what it goes by, if friction is known."""
+    from gearcad.rating.friction import LAW_WORDS
+
+    if (found := rating.efficiency) is None:
+        return
+    yield f"{100 * found.efficiency:.3f} %"
+    if found.mean_loss is not None:
+        yield f"{found.mean_loss:.4g} W lost"
+    yield f"H_V {found.loss_factor:.4f}, Ohlendorf"
+    yield f"µ {found.coefficient:.4f}, {LAW_WORDS[found.law]}"
 
 
 def _not_judged(reasons: Mapping[str, str]) -> Iterator[str]:

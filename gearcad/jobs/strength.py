@@ -28,6 +28,7 @@ from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.mounting import Mounting
 from gearcad.planetary import TrainLoad
+from gearcad.rating.friction import mesh_efficiency
 from gearcad.rating.load_factors import BodyLoad
 from gearcad.rating.strength import INFINITE, StrengthRating, rate_strength
 from gearcad.stiffness.comparison import StiffnessComparison, curves_csv
@@ -233,7 +234,11 @@ class Rate(ReportedJob[PairDesign | RackPairDesign | PlanetaryDesign, StrengthRa
             return rate_strength(design.pair, design.materials, load, design.rating)
         pair = design.pair if design.mounting is None else design.mounting.mounted(design.pair)
         by_bodies = _of_bodies(design, load)
-        return rate_strength(pair, design.materials, load, design.rating, body_load=by_bodies, face_load=design.face_load)
+        found = rate_strength(pair, design.materials, load, design.rating, body_load=by_bodies, face_load=design.face_load)
+        friction = None if design.check is None else design.check.friction
+        if friction is None:
+            return found
+        return replace(found, efficiency=mesh_efficiency(pair, found.materials, load, friction, found.options))
 
     def design_notices(self, design: Design) -> Sequence[Notice]:
         """Return the notices of a design, without that on shafts where K_Hbeta is that on them."""

@@ -9,17 +9,18 @@ coefficient of friction with that sign.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from operator import itemgetter
 from typing import Literal
 
 import numpy as np
 
 from gearcad.core.errors import ParameterError
-from gearcad.core.records import Floats, PerGear, Role
+from gearcad.core.records import Floats, JsonObject, PerGear, Role
 from gearcad.geometry import GearPair
 from gearcad.load import Load
 from gearcad.material import Material
-from gearcad.rating.options import RatingOptions
+from gearcad.rating.options import LoadBin, RatingOptions
 from gearcad.rating.scuffing import RZ_OVER_RA, USUAL_ROUGHNESS, scuffing
 from gearcad.rating.scuffing_temperatures import LEAST_LOAD
 
@@ -138,3 +139,63 @@ def ohlendorf_loss_factor(pair: GearPair) -> float | None:
     ratio, helix = pair.gear_ratio, math.radians(pair.pinion.base_helix_angle)
     sliding = math.pi * (ratio + 1) / (pair.pinion.teeth * ratio * math.cos(helix))
     return sliding * (1 - (first + second) + first**2 + second**2)
+
+
+@dataclass(frozen=True, kw_only=True)
+class MeshEfficiency:
+    """Efficiency of a mesh by Ohlendorf's loss factor H_V and a coefficient of friction, that of the governing load.
+
+    With a load spectrum `efficiency` and `mean_loss` (W, None at rest) are the means over the life.
+    """
+
+    efficiency: float
+    mean_loss: float | None
+    coefficient: float
+    loss_factor: float
+    law: str
+
+    def to_dict(self) -> JsonObject:
+        """Return the content of "mesh_efficiency" in rate.json."""
+        return {
+            "efficiency": self.efficiency,
+            "mean_loss": self.mean_loss,
+            "coefficient": self.coefficient,
+            "H_V": self.loss_factor,
+            "law": self.law,
+            "source": "H_V of Ohlendorf",
+            "unconfirmed": ["coefficient"] if self.law == "niemann" else [],
+        }
+
+
+def mesh_efficiency(
+    pair: GearPair, materials: PerGear[Material], load: Load, friction: float | FrictionLaw, options: RatingOptions
+) -> MeshEfficiency | None:
+    """Return the efficiency of a pair, over the load spectrum of the options if they have one; None where H_V does not hold.
+
+    Raises ParameterError where a law has no coefficient.
+    """
+    factor = ohlendorf_loss_factor(pair)
+    if factor is None:
+        return None
+    found, power, lost, spent = [], 0.0, 0.0, 0.0
+    for part in options.bins or (LoadBin(1.0, 1.0),):
+        of_part = replace(load, torque=load.torque * part.torque, speed=load.speed * part.speed)
+        if not of_part.torque:
+            continue
+        law = mesh_friction(pair, materials, of_part, friction, options)
+        force = abs(of_part.torque) * of_part.application_factor * 2000 / pair.pinion.base_diameter / pair.common_width.width
+        through = abs(of_part.torque) * (abs(of_part.speed) if load.speed else 1.0)
+        found.append((abs(of_part.torque), law.coefficient(force), law))
+        power, spent = power + part.life * through, spent + part.life
+        lost += part.life * through * law.coefficient(force) * factor
+    if not found:
+        return None
+    _, coefficient, law = max(found, key=itemgetter(0))
+    share = lost / power
+    return MeshEfficiency(
+        efficiency=1 - share if law.driver is Role.PINION else 1 / (1 + share),
+        mean_loss=lost / spent * math.pi / 30 if load.speed else None,
+        coefficient=coefficient,
+        loss_factor=factor,
+        law=law.law,
+    )

@@ -18,7 +18,7 @@ from gearcad.contact.solid.pair import SolidPair, SolidSizes, solid_pair
 from gearcad.core.errors import ParameterError
 from gearcad.core.records import PerGear, Role
 from gearcad.material import Material, MaterialGroup
-from gearcad.rating.friction import MeshFriction, mesh_friction, ohlendorf_loss_factor
+from gearcad.rating.friction import MeshFriction, mesh_efficiency, mesh_friction, ohlendorf_loss_factor
 from gearcad.rating.options import RatingOptions
 
 STEEL = Material()
@@ -186,3 +186,21 @@ def test_losses_of_a_check() -> None:
     # Elastic teeth share the load otherwise than by halves.
     assert document["H_V_contact"] == pytest.approx(losses.ohlendorf, rel=0.05)
     assert document["law"] == "constant"
+
+
+def test_efficiency_over_a_load_spectrum_is_that_of_the_power() -> None:
+    pair, load, steel = fzg(), Load(torque=200.0, speed=1000.0), PerGear(STEEL, STEEL)
+    factor = ohlendorf_loss_factor(pair)
+    assert factor is not None
+    even = mesh_efficiency(pair, steel, load, 0.06, RatingOptions())
+    assert even is not None
+    assert even.efficiency == pytest.approx(1 - 0.06 * factor, rel=1e-12)
+    assert even.mean_loss == pytest.approx(0.06 * factor * 200 * 1000 * math.pi / 30, rel=1e-12)
+    options = RatingOptions(life=1000.0, spectrum=[[0.25, 1.0], [0.75, 0.5]])
+    found = mesh_efficiency(pair, steel, load, "niemann", options)
+    assert found is not None
+    # The coefficient goes with the torque to the power 0.2.
+    mean = found.coefficient * (0.25 + 0.75 * 0.5 * 0.5**0.2) / (0.25 + 0.75 * 0.5)
+    assert found.efficiency == pytest.approx(1 - mean * factor, rel=1e-12)
+    power = (0.25 + 0.75 * 0.5) * 200 * 1000 * math.pi / 30
+    assert found.mean_loss == pytest.approx(mean * factor * power, rel=1e-12)

@@ -15,6 +15,7 @@ from gearcad.geometry import GearPair, RackPair
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.rating.factors import citations
+from gearcad.rating.friction import MeshEfficiency
 from gearcad.rating.load_factors import LoadFactors
 from gearcad.rating.material_limits import EnduranceLimits
 from gearcad.rating.nominal_rating import Rating
@@ -65,6 +66,7 @@ class StrengthRating(Pictured):
     notices: tuple[Notice, ...]
     own_names: PerGear[str] | None = None
     plastic: PlasticRating | None = None
+    efficiency: MeshEfficiency | None = None
 
     def __repr__(self) -> str:
         return f"<StrengthRating of {self.pair.name!r} at {self.load.torque:g} N·m: {self.verdict}>"
@@ -292,6 +294,7 @@ def strength_document(of: StrengthRating) -> JsonObject:
         "notices": [notice.to_dict() for notice in of.notices],
         "warnings": list(of.warnings),
         **({} if of.plastic is None else {"plastic": of.plastic.to_dict()}),
+        **({} if of.efficiency is None else {"mesh_efficiency": of.efficiency.to_dict()}),
         "nominal": of.nominal.to_dict(),
     }
 
