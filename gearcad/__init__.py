@@ -41,6 +41,7 @@ gearcad.core.errors.ParameterError: load = 60: must be a Load
     modify(pair, load)             tip relief and crowning for the load
     identify(teeth, ...)           the standard gears that measured diameters, spans or pins may be of
     tools(pair)                    the tools of the shelf that would cut the gears, with the root that each would leave
+    export_rexs(pair)              the file of REXS, for other programs for drives; import_rexs(file) reads one
 
 `gearcad.plots` draws gears and results, a call for each picture; a notebook shows them without one.
 
@@ -100,6 +101,7 @@ __getattr__, _, _names = lazy_loader.attach(
         ],
         "jobs.build": ["build"],
         "jobs.draw": ["draw", "picture"],
+        "jobs.exchange": ["export_rexs", "import_rexs"],
         "jobs.job": ["data"],
         "jobs.mesh": ["mesh"],
         "jobs.modify": ["modify"],

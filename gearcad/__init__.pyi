@@ -46,6 +46,8 @@ from .jobs.build import build as build
 from .jobs.draw import draw as draw
 from .jobs.draw import picture as picture
 from .jobs.dynamics import dynamics as dynamics
+from .jobs.exchange import export_rexs as export_rexs
+from .jobs.exchange import import_rexs as import_rexs
 from .jobs.job import data as data
 from .jobs.mesh import mesh as mesh
 from .jobs.modify import modify as modify

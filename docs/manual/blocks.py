@@ -1,4 +1,4 @@
-"""What pages show that can be run, read from their Markdown: commands with their output, Python, specs and design tables."""
+"""What pages show that can be run, read from their Markdown: commands with their output, Python, specs and other files."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from pathlib import Path
 __all__ = ["Block", "Command", "blocks_of", "commands_of", "is_long"]
 
 _FENCE = re.compile(r"^(?P<fence>`{3,})(?P<language>\w+)\n(?P<text>.*?)^(?P=fence)$", re.DOTALL | re.MULTILINE)
-_FILE = re.compile(r"# ([\w.-]+\.(?:toml|csv))\s*$")
+_FILE = re.compile(r"(?:# |<!-- )([\w.-]+\.(?:toml|csv|rexs))(?: -->)?\s*$")
 
 
 @dataclass(frozen=True)
@@ -22,8 +22,8 @@ class Block:
 
     @property
     def file(self) -> str | None:
-        """The file that a spec or a table is shown as: its first line is a comment with the name."""
-        found = _FILE.match(self.text.partition("\n")[0]) if self.language in ("toml", "csv") else None
+        """The file that a spec, a table or a file of REXS is shown as: its first line is a comment with the name."""
+        found = _FILE.match(self.text.partition("\n")[0]) if self.language in ("toml", "csv", "xml") else None
         return found and found[1]
 
 

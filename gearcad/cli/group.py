@@ -37,9 +37,14 @@ _MODULES = {
     **dict.fromkeys(("new", "data", "open", "completion"), "basics"),
     **dict.fromkeys(("draw", "picture"), "build"),
     **dict.fromkeys(("study", "plot"), "batch"),
+    **dict.fromkeys(("export", "import"), "exchange"),
     **dict.fromkeys(("check", "rate", "stiffness", "modify"), "strength"),
 }
 """The module of `gearcad.cli` with a command, where it is not called as the command."""
+
+
+_FUNCTIONS = {"import": "import_specs"}
+"""The function of a command, where it is not called as the command."""
 
 
 class Commands(click.Group):
@@ -47,14 +52,14 @@ class Commands(click.Group):
 
     def list_commands(self, _ctx: click.Context) -> list[str]:
         """Return the names of the commands in the order of use, not in alphabetical order."""
-        beside = ["size", "identify", "tools", "study", "batch", "plot", "open", "doctor", "completion"]
+        beside = ["size", "identify", "tools", "export", "import", "study", "batch", "plot", "open", "doctor", "completion"]
         return ["new", *job_commands(), *beside]
 
     def get_command(self, ctx: click.Context, name: str) -> click.Command | None:
         """Return a command, whose module is imported now: a command is as quick to start as what it needs."""
         if name not in self.list_commands(ctx):
             return None
-        found: click.Command = getattr(import_module(f"gearcad.cli.{_MODULES.get(name, name)}"), name)
+        found: click.Command = getattr(import_module(f"gearcad.cli.{_MODULES.get(name, name)}"), _FUNCTIONS.get(name, name))
         return found
 
     def invoke(self, ctx: click.Context) -> Any:

@@ -21,6 +21,7 @@ from gearcad.core.records import PerGear, Role, is_assumed, is_usual
 from gearcad.core.shelf_tables import Place
 from gearcad.designs.cells import cell_text, write_found_rows
 from gearcad.designs.design import LONGEST_NAME, Where, read_tables
+from gearcad.designs.gear_designs import GearDesign
 from gearcad.designs.keys import BESIDE, FIELDS, GEAR_FIELDS, SHAFTS, nearest_key, permitted_words
 from gearcad.designs.pair_designs import PairDesign
 from gearcad.designs.planetary_designs import PlanetaryDesign
@@ -55,14 +56,22 @@ if TYPE_CHECKING:
     from gearcad.sizing.planetary_sets import SizedSet, SizedSets
 
 
+SpecTables = dict[str, dict[str, Any] | list[dict[str, Any]]]
+"""Tables of a spec under their names, with flattened keys, and lists of tables."""
+
 _ALWAYS = ("helix_angle", "profile_shift", "tip_alteration")
 """Fields of gears that are always written: without them a spec takes them from the mate, or as "auto"."""
 
 
 def pair_text(design: PairDesign, comments: Sequence[str] = ()) -> str:
     """Return the TOML of a design of a pair, beginning with `comments`, a line each. Derived values replace "auto"."""
+    return toml_text(pair_tables(design), comments)
+
+
+def pair_tables(design: PairDesign) -> SpecTables:
+    """Return the tables of a pair's spec with flattened keys, and its lists of tables. Derived values replace "auto"."""
     pair = design.pair
-    tables = {
+    tables: SpecTables = {
         "pair": dict(
             _pair_text_values(pair, ("name", "centre_distance", "centre_distance_tolerance", "axial_offset"), always=("name",))
         ),
@@ -70,20 +79,33 @@ def pair_text(design: PairDesign, comments: Sequence[str] = ()) -> str:
             role.value: dict(_pair_text_values(gear, FIELDS[role.value], always=("name", *_ALWAYS)))
             for role, gear in pair.gears.items()
         },
-        **{table: dict(_pair_text_values(material, schema_of(Material))) for table, material in _materials(design).items()},
-        **{
-            table: dict(_pair_text_values(getattr(design, table), FIELDS[table]))
-            for table in BESIDE
-            if getattr(design, table) is not None and table != "material"
-        },
+        **_tables_beside(design, _materials(design)),
         **{f"{gear}.drawing": dict(_pair_text_values(own, schema_of(PartDrawing))) for gear, own in design.drawings.items()},
     }
     if design.shafts is None:
-        return toml_text(tables, comments)
+        return tables
     for role, mounted in design.shafts.mounted.items():
-        tables[role.value] |= {"mesh_position": mounted.mesh_position, "coupling": mounted.shaft.coupling}
+        tables[role.value] |= {"mesh_position": mounted.mesh_position, "coupling": mounted.shaft.coupling}  # type: ignore[operator]
     options = dict(_pair_text_values(design.shafts.options, schema_of(ShaftOptions)))
-    return toml_text({**tables, **({SHAFTS: options} if options else {}), **_shaft_lists(design.shafts)}, comments)
+    return {**tables, **({SHAFTS: options} if options else {}), **_shaft_lists(design.shafts)}
+
+
+def gear_tables(design: GearDesign) -> SpecTables:
+    """Return the tables of a single gear's spec with flattened keys."""
+    materials = {} if design.material is None else {"material": design.material}
+    return {
+        "gear": dict(_pair_text_values(design.gear, FIELDS["gear"], always=("name", *_ALWAYS))),
+        **_tables_beside(design, materials),
+    }
+
+
+def _tables_beside(design: GearDesign | PairDesign, materials: Mapping[str, Material]) -> SpecTables:
+    """Return the tables that stand beside those of the gears."""
+    given = {table: getattr(design, table, None) for table in BESIDE if table != "material"}
+    return {
+        **{table: dict(_pair_text_values(material, schema_of(Material))) for table, material in materials.items()},
+        **{table: dict(_pair_text_values(own, FIELDS[table])) for table, own in given.items() if own is not None},
+    }
 
 
 def _shaft_lists(shafts: PairShafts) -> dict[str, list[dict[str, Any]]]:

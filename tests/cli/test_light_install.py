@@ -41,6 +41,8 @@ COMMANDS = {
     "build": ["build", "reducer.toml", "--format", "step,stl,3mf,glb,dxf,csv", "-o", "out/build"],
     "rate": ["rate", "reducer.toml", "-o", "out/rate"],
     "draw": ["draw", "reducer.toml", "-o", "out/draw"],
+    "export": ["export", "reducer.toml", "-o", "out/export"],
+    "import": ["import", "out/export/reducer-21-43.rexs", "-o", "out/import"],
     "identify": "identify --teeth 24 --tip-diameter 52.02 --root-diameter 43.01 --span 3:15.40 --span 4:21.30 --json".split(),
 }
 

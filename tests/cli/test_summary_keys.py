@@ -55,6 +55,8 @@ COMMANDS = {
     "identify": "identify --teeth 24 --tip-diameter 52.02 --root-diameter 43.01",
     "tools": "tools",
     "tools of a design": "tools pair.toml -o output/tools",
+    "export": "export pair.toml --quiet",
+    "import": "import pair.rexs --quiet -o output/import",
     "size": f"size {SIZE}",
     "batch": "batch gears.csv --do data",
 }
@@ -92,6 +94,7 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
     for name, text in {"pair.toml": PAIR, "train.toml": TRAIN, "gears.csv": TABLE, "shaft.toml": SHAFT}.items():
         (tmp_path / name).write_text(text, encoding="utf-8")
+    assert CliRunner().invoke(main, ["export", "pair.toml", "-o", "."]).exit_code == 0
     for kind, name in (("spur", "gear.toml"), ("planetary-24-21-66", "planetary.toml")):
         assert CliRunner().invoke(main, ["new", kind, "-o", name]).exit_code == 0
     return tmp_path
