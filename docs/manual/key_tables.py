@@ -34,7 +34,7 @@ def key_tables() -> Mapping[str, Mapping[str, FieldSchema]]:
         **{table: dict(FIELDS[table]) for table in _BESIDE},
         "part_drawing": own_drawing,
         "train": dict(TRAIN["train"]),
-        **{f"train.{part}": dict(TRAIN[part]) for part in ("inertia", "shaft", "mesh")},
+        **{f"train.{part}": dict(TRAIN[part]) for part in ("inertia", "shaft", "mesh", "excitation")},
         "train.shaft.gears": dict(schema_of(ShaftGear)),
         **_planetary(mates),
         "measured": dict(schema_of(Measurements)),

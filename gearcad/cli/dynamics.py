@@ -95,6 +95,9 @@ def _resonance_line(study: SideBySide, mesh: str, at: int) -> str:
 
 _MOST_PEAKS = 8
 
+_MOST_ORDERS = 4
+"""Greatest number of orders in a line."""
+
 
 @click.command(short_help="Natural frequencies, dynamic factors and spectra of SPEC's pair or train.")
 @spec_argument
@@ -165,7 +168,7 @@ def _lines(study: Study) -> list[str]:
     if isinstance(study, ContactStudy):
         return _contact_lines(study)
     if isinstance(study, ModalStudy):
-        return [*_mode_lines(study.modes), *_transient_lines(study)]
+        return [*_mode_lines(study.modes), *_order_lines(study), *_transient_lines(study)]
     if isinstance(study, SideBySide):
         return beside_lines(study)
     if not isinstance(study, PairStudy):
@@ -210,10 +213,22 @@ def _train_lines(study: TrainStudy) -> list[str]:
         *lines,
         f"K_v at {study.course.speed:.6g} rpm: {factors}",
         *_error_lines(study),
+        *_order_lines(study),
         *_transient_lines(study),
         *displacement_lines(study),
         *_campbell_lines(study),
     ]
+
+
+def _order_lines(study: TrainStudy | ModalStudy) -> list[str]:
+    """Return the greatest amplitudes of orders of each mesh and shaft, of a train with torques on its inertias."""
+    if study.orders is None or not study.train.excitations:
+        return []
+    found: dict[str, list[str]] = {}
+    for each in sorted(study.orders.greatest, key=lambda each: -each.amplitude):
+        words = f"{each.amplitude:.4g} {each.unit} of order {each.order:.5g} ({each.source}) at {each.speed:.5g} rpm"
+        found.setdefault(f"amplitude of {each.quantity} of {each.name}", []).append(words)
+    return [f"{name}: {', '.join(words[:_MOST_ORDERS])}" for name, words in found.items()]
 
 
 def _error_lines(study: TrainStudy) -> list[str]:

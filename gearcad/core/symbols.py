@@ -815,6 +815,7 @@ TRAIN_PARTS = {
         "tooth_frequency": Symbol("f_z", "Hz", "", "tooth frequency at the train's speed"),
         "static_force": Symbol("F", "N", "", "mean force between the flanks"),
     },
+    "excitation": {"mean_left_out": Symbol("T", "N·m", "", "mean of the file's torque, which is left out")},
 }
 """Symbols of derived values of a train and its parts, as data.json has them."""
 

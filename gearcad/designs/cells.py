@@ -300,7 +300,7 @@ def _of_train(key: str) -> bool:
     [mesh] has one.
     """
     table, _, rest = key.partition(".")
-    return table in ("train", "inertia", "shaft") or (table == "mesh" and "." in rest)
+    return table in ("train", "inertia", "shaft", "excitation") or (table == "mesh" and "." in rest)
 
 
 def read_headings(cells: Sequence[RawCell], where: str) -> tuple[str, ...]:

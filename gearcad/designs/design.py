@@ -140,13 +140,17 @@ def files_only_in(folder: Path) -> Iterator[None]:
         _fence.reset(token)
 
 
+_FILES_OF_TRAINS = (("mesh", "pair"), ("shaft", "layout"), ("excitation", "file"))
+"""Lists of a train whose parts may name a file, and the key of it: that of `mesh.NAME.pair`."""
+
+
 def names_file(key: str) -> bool:
-    """Return whether a text under a key is a file: a template, a blank, a mesh's pair, `mesh.NAME.pair`, a shaft's layout."""
+    """Return whether a text under a key is a file: a template, a blank, a mesh's pair, a shaft's layout, a torque's curve."""
     table, _, rest = key.partition(".")
     name, _, field = rest.rpartition(".")
     if key in (_TEMPLATE, _BLANK) or key.endswith(f".{_BLANK}"):
         return True
-    return (table, field) in (("mesh", "pair"), ("shaft", "layout")) and bool(name)
+    return (table, field) in _FILES_OF_TRAINS and bool(name)
 
 
 def is_inline(value: Any) -> bool:
@@ -256,7 +260,7 @@ def find_named_files(tables: Mapping[str, Any], folder: Path) -> None:
     _find_tools(tables, folder)
     train, drawing = tables.get("train"), tables.get("drawing")
     named: list[tuple[str, Any, str]] = []
-    for part, key in (("mesh", "pair"), ("shaft", "layout")):
+    for part, key in _FILES_OF_TRAINS:
         listed = train.get(part) if isinstance(train, Mapping) else None
         named += [(f"train.{part}[{at}]", each, key) for at, each in enumerate(listed)] if isinstance(listed, list) else []
     for where, table, key in (*named, ("drawing", drawing, "template")):

@@ -26,10 +26,12 @@ from gearcad.designs.design import (
 from gearcad.designs.keys import BESIDE, MAIN_TABLES, OF_SETS, DesignKind, permitted_words
 from gearcad.designs.pair_designs import PairDesign
 from gearcad.designs.spec import Given
+from gearcad.designs.torque_files import read_torque
 from gearcad.designs.train_keys import ALL, MAIN, TORQUES, TRAIN, TRAIN_PARTS, TrainKey, explain_unknown_key_of_train
 from gearcad.designs.train_shafts import LAYOUT_KEYS, read_layout, read_shaft_options, require_faces
 from gearcad.dynamics.options import OF_PAIRS, OF_TRAINS_OF_PAIRS, DynamicsOptions
 from gearcad.dynamics.trains.members import BESIDE_PAIR, MeshPair, Shaft, ToothMesh
+from gearcad.dynamics.trains.torque_excitation import TorqueExcitation
 from gearcad.dynamics.trains.train import Train, TrainModel, train_document
 from gearcad.material import Material
 from gearcad.mounting import Mounting
@@ -314,7 +316,7 @@ _TOLD_BY_PAIR = ("base_radii", "teeth", "internal", "stiffness", "variation", "s
 _NEVER_PART = "off"
 """Value of a backlash for flanks that stay together under any load."""
 
-_LISTS = {"inertia": "inertias", "shaft": "shafts", "mesh": "meshes"}
+_LISTS = {"inertia": "inertias", "shaft": "shafts", "mesh": "meshes", "excitation": "excitations"}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -437,7 +439,7 @@ class _Reader:
             return DynamicsOptions(**_numbers(DynamicsOptions, chosen))
 
     def _parts(self, listed: Any, key: str) -> tuple[Any, ...]:
-        """Return the inertias, shafts or meshes of a train."""
+        """Return the inertias, shafts, meshes or excitations of a train."""
         if not isinstance(listed, list):
             raise SpecError(f"{self.where(f'train.{key}')}: train.{key}: must be headed [[train.{key}]], once for each")
         kind, found = TRAIN_PARTS[key], []
@@ -449,6 +451,8 @@ class _Reader:
                 self._read_pair(given, owner)
             if kind is Shaft:
                 read_layout(given, self.where, owner)
+            if kind is TorqueExcitation and "file" in given:
+                given["file"] = read_torque(given["file"], self.where, self._written(owner, "file"))
             with self.blame(owner, str(given.get("name", ""))):
                 missing = [name for name, field in schema.items() if field.needed(given)]
                 if missing:

@@ -32,6 +32,7 @@ from gearcad.designs.keys import (
 from gearcad.designs.shaft_keys import general_shaft_key, shaft_fields
 from gearcad.dynamics.options import OF_PAIRS, OF_TRAINS_OF_PAIRS, DynamicsOptions
 from gearcad.dynamics.trains.members import Inertia, Shaft, ToothMesh
+from gearcad.dynamics.trains.torque_excitation import TorqueExcitation
 from gearcad.dynamics.trains.train import Train
 from gearcad.planetary import Carrier, Central, PairStage, PlanetaryTrain, Rim, TrainLoad
 
@@ -96,13 +97,18 @@ MAIN = "train"
 ALL = "*"
 """Word in place of a name for all parts of a kind; a part's own value takes precedence."""
 
-TRAIN_PARTS: dict[str, type[DataclassInstance]] = {"inertia": Inertia, "shaft": Shaft, "mesh": ToothMesh}
+TRAIN_PARTS: dict[str, type[DataclassInstance]] = {
+    "inertia": Inertia,
+    "shaft": Shaft,
+    "mesh": ToothMesh,
+    "excitation": TorqueExcitation,
+}
 """Types of the parts of a train, by the tables of its spec."""
 
 TORQUES = "torques"
 """The part of [train] whose keys are inertias."""
 
-_ELSEWHERE = ("name", "inertias", "shafts", "meshes", TORQUES)
+_ELSEWHERE = ("name", "inertias", "shafts", "meshes", "excitations", TORQUES)
 """Fields of a train that no plain key holds."""
 
 

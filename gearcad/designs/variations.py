@@ -122,7 +122,7 @@ _NAMED_OF_TRAINS = {
 _NAMED = ("stiffness",)
 """Tables whose quantities stand under a name each: `stiffness.iso6336.mean`."""
 
-_ALL_PARTS = {"inertia": "all inertias", "shaft": "all shafts", "mesh": "all meshes"}
+_ALL_PARTS = {"inertia": "all inertias", "shaft": "all shafts", "mesh": "all meshes", "excitation": "all excitations"}
 
 _OWNERS = tuple(role.value for role in Role)
 
@@ -299,6 +299,7 @@ _INSTEAD = {
     ("mesh", "damping_ratio"): ("damping",),
     ("mesh", "pair"): ("base_radii", "teeth", "internal", "stiffness", "variation", "shape", "contact_ratio"),
     ("shaft", "torsional_stiffness"): ("length", "diameter", "inner_diameter"),
+    ("excitation", "file"): ("order", "amplitude", "phase"),
 }
 """Keys that a part of a train loses when another key of it varies."""
 

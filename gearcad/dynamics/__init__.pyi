@@ -14,5 +14,7 @@ from .trains.members import MeshPair as MeshPair
 from .trains.members import Shaft as Shaft
 from .trains.members import StiffnessWave as StiffnessWave
 from .trains.members import ToothMesh as ToothMesh
+from .trains.torque_excitation import TorqueCurve as TorqueCurve
+from .trains.torque_excitation import TorqueExcitation as TorqueExcitation
 from .trains.train import Train as Train
 from .trains.train import TrainModel as TrainModel

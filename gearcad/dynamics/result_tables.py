@@ -9,9 +9,11 @@ import numpy as np
 
 from gearcad.core.records import Bools, Floats, Wholes
 from gearcad.dynamics.response.chart_findings import Charts
+from gearcad.dynamics.response.order_chart import OrderChart
 from gearcad.dynamics.time_domain.spectra import SpeedSpectra
 from gearcad.dynamics.time_domain.time_history import TimeHistory
 from gearcad.dynamics.time_domain.transient_result import Transient
+from gearcad.dynamics.trains.speed_orders import SpeedOrder
 from gearcad.dynamics.trains.train_modes import ComponentModes, NaturalModes
 from gearcad.mesh_cycle import MeshCycle
 
@@ -188,6 +190,37 @@ def transient_columns(run: Transient) -> Columns:
         **named_columns("overload", meshes, run.factor),
         **named_columns("parted", meshes, run.parted),
         **named_columns("shaft_overload", shafts, run.shaft_factor),
+    }
+
+
+def order_tables(chart: OrderChart | None, run: Transient | None) -> Tables:
+    """Return the tables of a run in time and of amplitudes of orders over speed, of those that there are."""
+    found: Tables = {} if run is None else {"transient": transient_columns(run)}
+    if run is not None and run.tracks is not None:
+        tracks = run.tracks
+        found["order tracks"] = {
+            "time (s)": tracks.time,
+            "speed (rpm)": tracks.speeds,
+            **_order_columns(tracks.orders, (tracks.names[0], tracks.names[2]), (tracks.forces, tracks.torques)),
+        }
+    if chart is not None:
+        found["orders"] = {
+            "speed (rpm)": chart.speeds,
+            **_order_columns(chart.orders, (chart.names[0], chart.names[2]), (chart.forces, chart.torques)),
+            **named_columns("torque_swing", chart.names[2], chart.swings, "N·m"),
+        }
+    return found
+
+
+def _order_columns(
+    orders: Sequence[SpeedOrder], names: tuple[tuple[str, ...], tuple[str, ...]], values: tuple[Floats, Floats]
+) -> Columns:
+    """Return columns of the amplitudes (s, k, c) of orders, of the forces of meshes and the torques of shafts."""
+    return {
+        f"{quantity}.{name}.order {each.order:.12g} ({unit})": amplitudes[:, at, member]
+        for quantity, unit, members, amplitudes in zip(("force", "shaft_torque"), ("N", "N·m"), names, values, strict=True)
+        for member, name in enumerate(members)
+        for at, each in enumerate(orders)
     }
 
 

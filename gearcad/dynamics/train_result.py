@@ -28,6 +28,7 @@ from gearcad.dynamics.response.chart_findings import (
     shaft_overloads,
 )
 from gearcad.dynamics.response.kv_chart import KvChart
+from gearcad.dynamics.response.order_chart import OrderChart
 from gearcad.dynamics.result_tables import (
     Columns,
     Tables,
@@ -36,8 +37,8 @@ from gearcad.dynamics.result_tables import (
     cycle_columns,
     modal_tables,
     named_columns,
+    order_tables,
     stacked,
-    transient_columns,
 )
 from gearcad.dynamics.time_domain.spectra import MeshCampbell
 from gearcad.dynamics.time_domain.transient_result import Transient
@@ -105,13 +106,15 @@ class Course:
 class ModalStudy:
     """Natural modes of a train without loads over speed: it has no meshes, or no damping.
 
-    `transient` is the run in time of a train with meshes, where it was asked for; `found` are notices of the calculation.
+    `transient` is the run in time, where it was asked for; `orders` are the amplitudes over speed of a train without meshes
+    that torques on its inertias shake; `found` are notices of the calculation.
     """
 
     train: Train
     options: DynamicsOptions
     modes: NaturalModes
     transient: Transient | None = None
+    orders: OrderChart | None = None
     found: tuple[Notice, ...] = ()
 
     @property
@@ -138,18 +141,20 @@ class ModalStudy:
             "model": self.train.model.value,
             "modes": self.modes.to_dict(),
             **({} if self.transient is None else {"transient": self.transient.to_dict()}),
+            **({} if self.orders is None else {"orders": self.orders.to_dict()}),
             "warnings": list(self.warnings),
             "notices": [notice.to_dict() for notice in self.notices],
         }
 
     def arrays(self) -> dict[str, Floats]:
         """Return the arrays of the .npz file by name."""
-        return _mode_arrays(self.modes) | ({} if self.transient is None else self.transient.arrays())
+        found = _mode_arrays(self.modes) | ({} if self.transient is None else self.transient.arrays())
+        return found | ({} if self.orders is None else self.orders.arrays())
 
     def tables(self) -> Tables:
         """Return the tables of the CSV files by name."""
         found: Tables = {**modal_tables(self.modes)}
-        return found | ({} if self.transient is None else {"transient": transient_columns(self.transient)})
+        return found | order_tables(self.orders, self.transient)
 
 
 def _missed(train: Train, modes: NaturalModes) -> tuple[Notice, ...]:
@@ -179,7 +184,8 @@ class TrainStudy(Pictured):
     `on_bearings` are the modes of the system of the charts, where its gears travel as well; `method_b` is K_v by ISO 6336-1.
     `found` are notices of the calculation itself; `notices` are also those of the charts and modes. `errors` is K_v with tooth
     errors that were drawn: the charts are then those of teeth without errors. `transient` and `campbell` are a run with
-    changing speed or torque, and spectra over speed, where they were asked for.
+    changing speed or torque, and spectra over speed, where they were asked for. `orders` are amplitudes of single orders over
+    speed, of a train with torques on its inertias or a run whose orders are tracked.
     """
 
     train: Train
@@ -197,6 +203,7 @@ class TrainStudy(Pictured):
     errors: ErrorStudy | None = None
     transient: Transient | None = None
     campbell: MeshCampbell | None = None
+    orders: OrderChart | None = None
 
     def __repr__(self) -> str:
         return f"<TrainStudy of {self.train.name!r}: {len(self.speeds)} speeds up to {self.speeds.max():.6g} rpm>"
@@ -351,6 +358,7 @@ class TrainStudy(Pictured):
             "shaft_overloads": [each._asdict() for each in self.shaft_overloads.values()],
             "greatest_amplitudes": [each.to_dict() for each in self.greatest_amplitudes],
             "greatest_bearing_forces": [each.to_dict() for each in self.greatest_bearing_forces],
+            **({} if self.orders is None else {"orders": self.orders.to_dict()}),
             **({"pairs": {name: mesh.pair_document() for name, mesh in self.pairs.items()}} if self.pairs else {}),
             "warnings": list(self.warnings),
             "notices": [notice.to_dict() for notice in self.notices],
@@ -370,6 +378,7 @@ class TrainStudy(Pictured):
             found["kv_iso6336"] = self.up.standard
         found |= {} if self.errors is None else self.errors.arrays()
         found |= {} if self.transient is None else self.transient.arrays()
+        found |= {} if self.orders is None else self.orders.arrays()
         return found | ({} if self.campbell is None else self.campbell.arrays())
 
     def tables(self) -> Tables:
@@ -383,5 +392,5 @@ class TrainStudy(Pictured):
             **stacked("mesh", list(self.pairs), [{_CYCLES: cycle_columns(mesh.course.cycle)} for mesh in self.pairs.values()]),
         }
         found |= {} if self.errors is None else {"tooth errors": self.errors.columns()}
-        found |= {} if self.transient is None else {"transient": transient_columns(self.transient)}
+        found |= order_tables(self.orders, self.transient)
         return found | ({} if self.campbell is None else {"campbell": campbell_columns(self.campbell)})

@@ -15,6 +15,7 @@ from gearcad.core.runtime import Expected, Share, Tell, cores, unheard, untold
 from gearcad.dynamics.engagement import engaged, pair_notices
 from gearcad.dynamics.options import DynamicsOptions, operating_range
 from gearcad.dynamics.response.kv_chart import idle_shafts, lines_that_matter
+from gearcad.dynamics.response.order_chart import OrderChart, order_chart
 from gearcad.dynamics.response.speed_charts import OverSpeed, over_speed
 from gearcad.dynamics.time_domain.campbell import campbell_seconds, mesh_campbell
 from gearcad.dynamics.time_domain.spectra import MeshCampbell
@@ -24,9 +25,10 @@ from gearcad.dynamics.tooth_errors.error_result import ToothLaw
 from gearcad.dynamics.tooth_errors.error_sources import MeshTeeth, engaged_teeth, mesh_teeth
 from gearcad.dynamics.tooth_errors.error_study import ErrorPlan, errors_seconds, study_errors
 from gearcad.dynamics.train_result import Course, ModalStudy, TrainStudy
-from gearcad.dynamics.trains.mesh_excitation import Excitation, train_excitation
+from gearcad.dynamics.trains.mesh_excitation import Excitation, train_excitation, train_torques
 from gearcad.dynamics.trains.pair_on_bearings import BearingModes, PairOnBearings
 from gearcad.dynamics.trains.shaft_lines import System, system
+from gearcad.dynamics.trains.speed_orders import SpeedOrder, least_even_speed, speed_orders, torque_notices
 from gearcad.dynamics.trains.steady_response import PeriodicResponse, require_damping, senses
 from gearcad.dynamics.trains.train import EngagedMesh, Train, coarse_elements, fitted, require_pressed, static_forces
 from gearcad.dynamics.trains.train_modes import NaturalModes, natural_modes
@@ -62,6 +64,40 @@ def study_modes(train: Train, options: DynamicsOptions | None = None) -> ModalSt
     return ModalStudy(train=train, options=options, modes=natural_modes(train, count=options.frequencies))
 
 
+def study_torques(train: Train, options: DynamicsOptions | None = None, *, tell: Tell = untold) -> ModalStudy:
+    """Return modes, amplitudes over speed and, where the options ask for it, the run in time of a train without meshes.
+
+    Its excitations shake it. `tell` receives the current step. Raises ParameterError, GeometryError and SolverError.
+    """
+    options = options or DynamicsOptions()
+    tell("modes")
+    modes = natural_modes(train, count=options.frequencies)
+    shaken, excitation = system(train), Excitation(meshes=(), torques=train_torques(train))
+    orders = speed_orders(train, excitation)
+    speeds = _torque_speeds(train, options, modes, min(each.order for each in orders))
+    tell("chart")
+    chart = order_chart(train, shaken, excitation, speeds, orders)
+    found, run = torque_notices(train, float(speeds[0])), None
+    if not shaken.damping.any():
+        text = "without damping amplitudes have no finite value at a resonance: give damping or damping_ratio of a shaft"
+        found = (*found, Notice("no-damping", text))
+    if options.transient is not None:
+        otherwise, heard = abs(train.speed) or float(speeds[-1]), partial(tell, "transient")
+        run = run_transient(train, shaken, excitation, options.transient, otherwise=otherwise, tell=heard)
+        found = (*found, *run.notices)
+    return ModalStudy(train=train, options=options, modes=modes, transient=run, orders=chart, found=found)
+
+
+def _torque_speeds(train: Train, options: DynamicsOptions, modes: NaturalModes, order: float) -> Floats:
+    """Return the speeds (rpm) of the chart of a train without meshes; `order` is the lowest one of its torques."""
+    elastic = modes.frequency[modes.rigid :]
+    last = options.speed_to or _BEYOND * 60 * float(elastic.min(initial=math.inf)) / order
+    if not math.isfinite(last):
+        last = abs(train.speed) or 1000.0
+    first = options.speed_from or max(last * options.slowest, min(least_even_speed(train), last / 2))
+    return np.linspace(first, last, options.chart_speeds)
+
+
 def study_train(
     train: Train,
     options: DynamicsOptions | None = None,
@@ -90,6 +126,7 @@ def study_train(
     train = engaged(train, options)
     require_pressed(train)
     options = (options or DynamicsOptions()).graded(RatingOptions())
+    _require_no_torques(train, options)
     tell("modes")
     modes = natural_modes(train, count=options.frequencies)
     on_bearings = None if bearings is None else bearings.modes()
@@ -116,6 +153,12 @@ def study_train(
         shaken = (train, charted, excitation)
         transient = run_transient(*shaken, options.transient, references=references, otherwise=course.speed, tell=heard)
     spectra = _spectra(train, charted, excitation, options, charted_speeds, modes, tell) if options.spectra else None
+    tracked = options.transient is not None and options.transient.tracked
+    orders = None
+    if train.excitations or tracked:
+        tell("orders")
+        asked_orders = options.transient.orders if options.transient is not None else ()
+        orders = _order_chart(train, charted, excitation, over, speed_orders(train, excitation, asked_orders))
     return TrainStudy(
         train=train,
         options=options,
@@ -130,6 +173,7 @@ def study_train(
         found=(
             *pair_notices(train),
             *coarse_elements(train, highest),
+            *torque_notices(train, float(charted_speeds[0])),
             *over.notices,
             *more,
             *_notices(transient),
@@ -139,7 +183,28 @@ def study_train(
         errors=errors,
         transient=transient,
         campbell=spectra,
+        orders=orders,
     )
+
+
+_MOST_CHARTED = 1500
+"""Greatest number of speeds at which amplitudes of orders are given."""
+
+
+def _order_chart(
+    train: Train, charted: System, excitation: Excitation, over: OverSpeed, orders: tuple[SpeedOrder, ...]
+) -> OrderChart:
+    """Return the amplitudes of orders at the speeds of the chart, or at some of very many."""
+    frequencies = over.up.frequencies[:: -(-len(over.up.frequencies) // _MOST_CHARTED)]
+    return order_chart(train, charted, excitation, frequencies * 30 / (math.pi * train.meshes[0].teeth), orders)
+
+
+def _require_no_torques(train: Train, options: DynamicsOptions) -> None:
+    """Raise GeometryError for torques on inertias beside errors that are drawn, whose study does not have them."""
+    if train.excitations and options.drawn:
+        key = "premature_engagement" if options.premature else "error_samples"
+        permitted = "must be left out beside [[train.excitation]]: a study of drawn tooth errors has no torques on inertias"
+        raise GeometryError(f"dynamics.{key}", getattr(options, key), permitted)
 
 
 def study_undamped(train: Train, options: DynamicsOptions | None = None, *, tell: Tell = untold) -> ModalStudy:
@@ -311,7 +376,7 @@ def chart_speeds(
             # Gears that travel are shaken at higher speeds than those that only turn.
             highest = on_bearings.frequency[on_bearings.potential[:, 0] > _SHARE].max() * 60 / train.meshes[0].teeth
             last = last if highest < last else _BEYOND * float(highest)
-    first = options.speed_from if options.speed_from else last * options.slowest
+    first = options.speed_from if options.speed_from else max(last * options.slowest, min(least_even_speed(train), last / 2))
     return np.linspace(first, last, options.chart_speeds)
 
 

@@ -28,7 +28,7 @@ from gearcad.dynamics.options import DynamicsOptions, PairModel, idle_without_le
 from gearcad.dynamics.pair_result import ContactStudy, PairStudy
 from gearcad.dynamics.pair_study import study_contact, study_pair
 from gearcad.dynamics.train_result import ModalStudy, TrainStudy
-from gearcad.dynamics.train_study import expected_train, study_modes, study_train, study_undamped
+from gearcad.dynamics.train_study import expected_train, study_modes, study_torques, study_train, study_undamped
 from gearcad.dynamics.trains.steady_response import UndampedError
 from gearcad.dynamics.trains.train import Train
 from gearcad.dynamics.variant_comparison import SideBySide
@@ -162,7 +162,7 @@ _ERRORS = "tooth errors"
 _OVER_SPEED = ("displacements", "transmission error", "bearings")
 _TABLES = (
     *("chart", *_OVER_SPEED, *(f"{name} down" for name in _OVER_SPEED), "modes", "component modes", "course", "course lines"),
-    *("mesh stiffness", "campbell", "history", "spectrum", _ERRORS, "transient"),
+    *("mesh stiffness", "campbell", "history", "spectrum", _ERRORS, "transient", "orders", "order tracks"),
 )
 """Names of the tables that every result has."""
 
@@ -244,9 +244,11 @@ def _write_arrays(study: Study, path: Path) -> None:
 def _of_train(design: TrainDesign, progress: Progress | None) -> TrainStudy | ModalStudy | LevelStudy:
     """Return the study of a train by one model, or by several side by side."""
     train, options, before = design.train, design.dynamics, dict[str, float]()
-    if not train.meshes:
+    if not train.meshes and not train.excitations:
         return study_modes(train, options)
-    every, steps = finest_first(design.models), _steps(_TRAIN, options)
+    if not train.meshes:
+        return study_torques(train, options, tell=Agenda(progress, _steps({"modes": 1.0, "chart": 2.0}, options)))
+    every, steps = finest_first(design.models), _steps(_TRAIN, options, orders=bool(train.excitations))
     if any(mesh.pair is not None for mesh in train.meshes):
         before = {"mesh stiffness": 10.0}
         Agenda(progress, {**before, **steps})("mesh stiffness")
@@ -309,11 +311,15 @@ def _of_pair(design: PairDesign, progress: Progress | None) -> PairStudy | Conta
     )
 
 
-def _steps(steps: Mapping[str, float], options: DynamicsOptions) -> Mapping[str, float]:
-    """Return the steps with their expected seconds, and with those for drawn tooth errors, motions in time and spectra."""
+def _steps(steps: Mapping[str, float], options: DynamicsOptions, *, orders: bool = False) -> Mapping[str, float]:
+    """Return the steps with their expected seconds, and with those for drawn tooth errors, motions in time and spectra.
+
+    `orders`: amplitudes of orders are charted, whatever the options.
+    """
     drawn = options.drawn and options.pair_model is PairModel.MESH
     more = {_ERRORS: 2.0 * options.error_samples} if drawn else {}
     more |= {} if options.transient is None else {"transient": 10.0}
+    more |= {"orders": 2.0} if orders or (options.transient is not None and options.transient.tracked) else {}
     return {**steps, **more, **({"campbell": 40.0} if options.spectra else {})}
 
 

@@ -29,6 +29,7 @@ from gearcad.plots.motions import (
     transient_inches,
     waterfall_inches,
 )
+from gearcad.plots.orders import orders_inches, plot_orders, plot_spectrogram, plot_tracks
 from gearcad.plots.paper import short
 from gearcad.plots.speeds import (
     bearing_inches,
@@ -290,6 +291,7 @@ def _modes_html(study: ModalStudy, name: str, head: Mapping[str, str] | None = N
         modes=mode_table(study.modes),
         **_shapes(study.modes),
         shape_figures=_shape_figures(study),
+        order_figures=_order_figures(study),
         time_figures=_transient_figures(study),
         warnings=study.warnings,
     )
@@ -453,7 +455,15 @@ def _speed_figures(study: TrainStudy) -> list[ReportFigure]:
         address = picture_address(partial(plot_tooth_errors, study), "svg", _WIDE)
         found.append(ReportFigure("Dynamic factor with tooth errors", address, _said("tooth_errors", study)))
     found.append(_figure("Course at one speed", partial(plot_course, study), course_inches(study), _said("course", study)))
-    return found + _transient_figures(study) + _campbell_figures(study)
+    return found + _order_figures(study) + _transient_figures(study) + _campbell_figures(study)
+
+
+def _order_figures(study: TrainStudy | ModalStudy) -> list[ReportFigure]:
+    """Return the figure of the amplitudes of orders over speed, where there are torques on inertias."""
+    of = study.orders
+    if of is None or not study.train.excitations:
+        return []
+    return [_figure("Orders over speed", partial(plot_orders, of), orders_inches(of), _said("orders", study))]
 
 
 def _campbell_figures(study: TrainStudy) -> list[ReportFigure]:
@@ -468,12 +478,18 @@ def _campbell_figures(study: TrainStudy) -> list[ReportFigure]:
 def _transient_figures(study: TrainStudy | ModalStudy) -> list[ReportFigure]:
     """Return the figures of a run with changing speed or torque; empty if there is none."""
     run, found = study.transient, []
-    if run is not None and run.speed_changes:
+    if run is not None and run.speed_changes and run.names[0]:
         over = partial(plot_transient_factors, study, run)
         found.append(_figure("Run with changing speed", over, factors_inches(run), _said("transient_factors", study, run)))
     if run is not None:
         draw = partial(plot_transient, run)
         found.append(_figure("Run over time", draw, transient_inches(run), _said("transient", run)))
+    if run is not None and run.tracks is not None:
+        tracks, natural = run.tracks, study.modes.frequency[study.modes.rigid :]
+        spectrogram = partial(plot_spectrogram, tracks, natural)
+        found.append(_figure("Spectrogram of the run", spectrogram, orders_inches(tracks), _said("spectrogram", tracks)))
+        along = partial(plot_tracks, tracks, study.orders)
+        found.append(_figure("Orders along the run", along, orders_inches(tracks), _said("tracks", study, tracks)))
     return found
 
 

@@ -74,7 +74,7 @@ def _text_row(key: str, words: str, text: str) -> Row:
     return Row(key, _PLAIN._replace(words=words), (text,), (text,))
 
 
-_TITLES = {"inertia": "Inertias", "shaft": "Shafts", "mesh": "Meshes"}
+_TITLES = {"inertia": "Inertias", "shaft": "Shafts", "mesh": "Meshes", "excitation": "Excitations"}
 
 
 def train_sections(document: Mapping[str, Any]) -> Iterator[Section]:
@@ -85,9 +85,11 @@ def train_sections(document: Mapping[str, Any]) -> Iterator[Section]:
         (), (Block("Train", _nonzero_rows(_train_row(MAIN, key, known[key], [value]) for key, value in own.items())),)
     )
     for table in TRAIN_PARTS:
-        if not (parts := document[table]):
+        if not (parts := document.get(table)):
             continue
-        known = {key: field.symbol for key, field in TRAIN[table].items() if key != "layout"} | symbols.TRAIN_PARTS[table]
+        known = {
+            key: field.symbol for key, field in TRAIN[table].items() if key not in ("layout", "file")
+        } | symbols.TRAIN_PARTS[table]
         rows = (_train_row(table, key, symbol, [part.get(key) for part in parts.values()]) for key, symbol in known.items())
         yield Section(tuple(parts), (Block(_TITLES[table], _nonzero_rows(rows)),))
 

@@ -16,6 +16,7 @@ from gearcad.designs.train_keys import COLUMNS
 from gearcad.designs.variations import column_symbol
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.trains.members import Inertia, Shaft, ToothMesh
+from gearcad.dynamics.trains.torque_excitation import TorqueExcitation
 from gearcad.geometry.gear_parts import Body
 from gearcad.geometry.making import Making
 from gearcad.geometry.premachining import Premachining
@@ -96,7 +97,7 @@ def test_a_column_is_whose_its_heading_says() -> None:
     ] * 6
 
 
-TRAIN = (Inertia, Shaft, ToothMesh)
+TRAIN = (Inertia, Shaft, ToothMesh, TorqueExcitation)
 WRITTEN = [
     symbols_of(Gear) | symbols.GEAR,
     {key: symbol for key, symbol in symbols_of(GearPair).items() if "." not in key} | symbols.PAIR,

@@ -28,7 +28,7 @@ from gearcad.stiffness.beam import PotentialEnergy
 SAME = 1e-9
 """Relative: the same equations on the same numbers, once through the statics of a train."""
 
-RUNS = 1e-3
+RUNS = 2e-3
 """Relative: loads of runs in time whose steps do not begin at the same place of a tooth."""
 
 MEANS = 1e-5
@@ -305,11 +305,11 @@ def test_names_of_specs_do_not_clash() -> None:
 
 
 def by_itself(pair: GearPair, torque: float, speed: float, **more: Any) -> PairStudy:
-    """The pair alone, about its resonance; a wheel of 20 teeth has the inertia of a pinion of 20."""
+    """The pair alone, below its resonance; a wheel of 20 teeth has the inertia of a pinion of 20."""
     inertias = {20: J[0], 30: J[1], 24: 0.004}
     own = {f"{role.value}_inertia": inertias[gear.teeth] for role, gear in pair.gears.items()}
-    last = 6600.0 * 20 / pair.pinion.teeth
-    options = replace(QUICK, speed_from=0.7 * last, speed_to=last, **own, **more)
+    last = 2000.0 * 20 / pair.pinion.teeth
+    options = replace(QUICK, speeds=6, speed_from=0.8 * last, speed_to=last, **own, **more)
     found = gearcad.dynamics(pair, Load(torque=torque, speed=speed), dynamics=options)
     assert isinstance(found, PairStudy)
     return found
@@ -323,7 +323,7 @@ def relieved(first: int, second: int, shift: float) -> GearPair:
     return GearPair(pinion=gear[0], wheel=gear[1], name="z")
 
 
-@pytest.mark.parametrize("premature", ["off", "on"])
+@pytest.mark.parametrize("premature", ["off", pytest.param("on", marks=pytest.mark.long)])
 def test_a_wheel_that_drives_is_the_pinion_of_the_pair_the_other_way_round(premature: str) -> None:
     """K_v over tooth frequencies, and loads and approaches at one speed; the pinion driving gives other ones."""
     more = {"premature_engagement": premature}
@@ -336,7 +336,9 @@ def test_a_wheel_that_drives_is_the_pinion_of_the_pair_the_other_way_round(prema
     np.testing.assert_allclose(driven.study.course.line, turned.study.course.line, rtol=1e-5, atol=1e-6)
     if premature == "on":
         assert driven.study.errors is not None and turned.study.errors is not None
+        assert driving.study.errors is not None
         np.testing.assert_allclose(driven.study.errors.nominal, turned.study.errors.nominal, rtol=RUNS)
+        assert np.abs(driving.study.errors.nominal / driven.study.errors.nominal - 1).max() > 10 * RUNS
     off = np.abs(driven.study.course.line[1:9] - driving.study.course.line[1:9]) / driving.study.course.line[1:9]
     assert off.max() > 500 * 1e-5
 

@@ -195,7 +195,7 @@ def test_samples_are_drawn(method: Method, tmp_path: Path) -> None:
         ("damping_ratio=1", "unknown key; did you mean shaft.*.damping_ratio or mesh.*.damping_ratio or "),
         ("modle=exact", "unknown key; did you mean train.model?"),
         ("pinion.teeth=3", "unknown key; did you mean mesh.*.teeth?"),
-        ("dynamics.pinion_inertia=3", "unknown key; did you mean inertia.*.inertia?"),
+        ("dynamics.pinion_inertia=3", "unknown key; did you mean inertia.*.inertia or excitation.*.inertia?"),
         ("train.torques.pinoin=3", "the train has no inertia pinoin; did you mean train.torques.pinion?"),
         ("mesh.mesh.k=3", "unknown key; permitted behind mesh.NAME. are pinion, wheel, pair, "),
         ("*=3", "unknown key; must be one of a train, such as train.model"),

@@ -99,6 +99,10 @@ class HarmonicBalance(Driven):
         beside = both_sides(at_orders(self.system, self.static, omega + np.array([step, -step]), self.orders).mesh)
         bend = (beside[0] - beside[1]) / (2 * step)
         with_omega = -np.einsum("hij,hj->hi", bend, forces[0]) - np.einsum("hij,hj->hi", mesh[0], self.error_rates)
+        pushed = self.pushed(omega + np.array([step, -step]), self.orders)
+        change = (pushed.approach[0] - pushed.approach[1]) / (2 * step)
+        with_omega[len(self.orders) - 1 + pushed.rows] -= change
+        with_omega[len(self.orders) - 1 - pushed.rows] -= change.conj()
         return residual[0], jacobian[0], with_omega.ravel()
 
     def _linearised(self, approach: Complexes, omega: Floats) -> tuple[Complexes, Complexes, Complexes, Complexes]:
@@ -108,7 +112,10 @@ class HarmonicBalance(Driven):
         mesh = both_sides(at_orders(self.system, self.static, omega, self.orders).mesh)
         forces = self.forces(approach, omega)[0]
         residual = approach - np.einsum("shij,shj->shi", mesh, forces)
-        residual[:, len(self.orders) - 1] -= self.static.approach
+        pushed, middle = self.pushed(omega, self.orders), len(self.orders) - 1
+        residual[:, middle] -= self.static.approach
+        residual[:, middle + pushed.rows] -= pushed.approach
+        residual[:, middle - pushed.rows] -= pushed.approach.conj()
         spectrum = np.fft.fft(self.slopes(approach), axis=-2) / self.count
         spectrum[:, 0] -= self.system.stiffness
         coupling = spectrum[:, np.mod(self.signed[:, None] - self.signed, self.count)]
@@ -379,7 +386,8 @@ class Branch:
         approach, stable = self.approach[chosen], self.stable[chosen]
         flexible = at_orders(self.system, balance.static, self.excitation.fundamental * frequencies, self.harmonics)
         forces = balance.forces(both_sides(approach), self.excitation.fundamental * frequencies)[0]
-        outputs = outputs_of(self.system, balance.static, flexible, forces[:, len(self.harmonics) - 1 :])
+        pushed = balance.pushed(self.excitation.fundamental * frequencies, self.harmonics)
+        outputs = outputs_of(self.system, balance.static, flexible, forces[:, len(self.harmonics) - 1 :], pushed)
         return PeriodicResponse(
             system=self.system,
             excitation=self.excitation,

@@ -169,8 +169,12 @@ class Resolution(Driven):
         mesh = flexible.mesh[:, : self.orders + 1]
         own = np.zeros((len(omega), self.orders + 1, mesh.shape[2]), complex)
         known = self.orders + 1 if start is None else min(start.shape[1], self.orders + 1)
+        pushed = self.pushed(omega, orders)
+        inside = pushed.rows <= self.orders
+        rows, moved = pushed.rows[inside], pushed.approach[:, inside]
         if start is None:
             own += self.settled
+            own[:, rows] += moved
         else:
             own[:, :known] = start[:, :known]
         left = np.full(len(omega), np.inf)
@@ -178,6 +182,7 @@ class Resolution(Driven):
             forces, slopes = self._forces(own, omega)
             residual = own - np.einsum("shij,shj->shi", mesh, forces[:, : self.orders + 1])
             residual[:, 0] -= self.static.approach
+            residual[:, rows] -= moved
             left = np.linalg.norm(_real(residual), axis=1)
             if (left <= 2 * self.tolerance * self.scale).all():
                 break
@@ -210,6 +215,9 @@ class Resolution(Driven):
     def _beyond(self, omega: Floats, flexible: Flexibility, own: Complexes, solved: NDArray[np.bool_]) -> Motions:
         forces, _ = self._forces(own, omega)
         approach = np.einsum("shij,shj->shi", flexible.mesh, forces)
+        if self.excitation.torques:
+            pushed = self.pushed(omega, np.arange(2 * self.orders + 1))
+            approach[:, pushed.rows] += pushed.approach
         approach[:, : self.orders + 1] = own
         return Motions(omega, self.orders, approach, forces, flexible, solved)
 

@@ -8,6 +8,7 @@ G the dynamic flexibility with the meshes at their mean. SI units, frequencies c
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -21,12 +22,14 @@ from gearcad.dynamics.trains.steady_response import (
     Outputs,
     PeriodicResponse,
     StaticState,
+    TorqueMotion,
     at_orders,
     both_sides,
     instability,
     outputs_of,
     parting,
     static_state,
+    torque_motion,
 )
 
 UNSTABLE = 1 + 1e-5
@@ -146,12 +149,21 @@ def harmonic_orders(excitation: Excitation, harmonics: int) -> Indices:
     if len(orders) == 1:
         found = orders[0] * np.arange(harmonics + 1)
     found = found[(found >= 0) & (found <= highest)]
+    if excitation.torques:
+        found = _with_torques(found, excitation.torque_orders)
     lines = np.flatnonzero(np.abs(excitation.error_coefficients(highest)).max(axis=1))
     if not np.isin(lines, found).all():
         found = np.arange(highest + 1)
     if len(found) > 20_000:
         raise ParameterError("harmonics", harmonics, f"must be fewer: the common period would have {len(found)} orders")
     return np.asarray(found, np.intp)
+
+
+def _with_torques(orders: Indices, torques: Sequence[int]) -> Indices:
+    """Return the orders with those of torques, and with what the teeth make of them on both sides."""
+    sides = [np.abs(order + sign * orders) for order in sorted(set(torques)) for sign in (-1, 1)]
+    found = np.unique(np.concatenate([orders, *sides]))
+    return np.asarray(found[found <= max(int(orders[-1]), *torques)], np.intp)
 
 
 def periodic_response(
@@ -197,7 +209,8 @@ def _solve(
     signed = np.concatenate([-orders[:0:-1], orders])
     driving = _driving(system, excitation, omega, signed)
     try:
-        approach, forces = _approaches(system, excitation, static, both_sides(flexible.mesh), driving, signed)
+        pushed = torque_motion(system, excitation, omega, orders)
+        approach, forces = _approaches(system, excitation, static, both_sides(flexible.mesh), driving, signed, pushed)
     except np.linalg.LinAlgError:
         approach = np.full(1, np.nan)
     if not np.isfinite(approach).all():
@@ -206,7 +219,7 @@ def _solve(
             "more damping moves the limit"
         )
     half = slice(len(orders) - 1, None)
-    return approach[:, half], outputs_of(system, static, flexible, forces[:, half])
+    return approach[:, half], outputs_of(system, static, flexible, forces[:, half], pushed)
 
 
 def _driving(system: System, excitation: Excitation, omega: Floats, signed: Indices) -> Complexes:
@@ -226,7 +239,13 @@ def _driving(system: System, excitation: Excitation, omega: Floats, signed: Indi
 
 
 def _approaches(
-    system: System, excitation: Excitation, static: StaticState, mesh: Complexes, driving: Complexes, signed: Indices
+    system: System,
+    excitation: Excitation,
+    static: StaticState,
+    mesh: Complexes,
+    driving: Complexes,
+    signed: Indices,
+    pushed: TorqueMotion,
 ) -> tuple[Complexes, Complexes]:
     """Return approaches and forces (s, q, m).
 
@@ -237,7 +256,10 @@ def _approaches(
     half[0] = 0
     varying = np.concatenate([half[:0:-1].conj(), half])
     right = np.einsum("shij,shj->shi", mesh, driving)
-    right[:, np.flatnonzero(signed == 0)[0]] += static.approach
+    middle = int(np.flatnonzero(signed == 0)[0])
+    right[:, middle] += static.approach
+    right[:, middle + pushed.rows] += pushed.approach
+    right[:, middle - pushed.rows] += pushed.approach.conj()
     approach, forces = np.zeros_like(right), driving.copy()
     remainders = np.mod(signed, np.gcd.reduce(excitation.orders))
     for remainder in np.unique(remainders):

@@ -220,7 +220,7 @@ class TimeRuns:
         most = max(self.excitation.orders)
         per_wave = max(_PER_WAVE, _PHASE / math.sqrt(max(float(self.linear.modes.ratio.min(initial=1.0)), 1e-6)))
         waves = shaken_frequency(self.linear.system) / (self.excitation.fundamental * frequency)
-        per = max(_PER_TOOTH * most, math.ceil(per_wave * waves))
+        per = max(_PER_TOOTH * self.excitation.highest, math.ceil(per_wave * waves))
         return per, max(_LEAST_PERIODS, math.ceil(_TEETH / most))
 
     def _go(self, begin: _State, frequency: float, *, sampled: bool) -> _Stay:
@@ -325,6 +325,8 @@ def _start(curves: SpeedCurves, motion: Motions) -> Start:
     """Return the coordinates and rates (n,) at phase 0 of one linear motion."""
     system, omega = curves.system, float(motion.omega[0])
     forces = motion.forces[0] @ system.mesh.T
+    acting, torques = curves.excitation.torque_vectors(system)
+    forces[acting[acting < len(forces)]] += torques[acting < len(forces)]
     orders = omega * np.arange(1, len(forces))
     dynamic = (
         system.stiffness_matrix()

@@ -43,6 +43,8 @@ class Resonances:
     ratio: Floats
     mesh: Floats
     told: Floats
+    shapes: Floats
+    """The modes (n, r), of modal mass 1."""
     sharp: Bools
     """Marks (r,) of modes that are damped so little that they are taken to have more damping."""
 
@@ -62,7 +64,7 @@ def resonances(system: System, static: StaticState, references: Floats) -> Reson
     told = np.nan_to_num(np.abs(np.hstack([own, shafts])), nan=0.0).max(axis=1)
     omega = np.sqrt(squares)
     ratio = damping / (2 * omega)
-    return Resonances(omega, np.maximum(ratio, LEAST_RATIO), mesh, told, ratio < LEAST_RATIO)
+    return Resonances(omega, np.maximum(ratio, LEAST_RATIO), mesh, told, modes, ratio < LEAST_RATIO)
 
 
 def settled(system: System, static: StaticState, stiffness: Floats, errors: Floats) -> Floats:
@@ -148,6 +150,9 @@ MOST_ORDERS = 2048
 _LEAST_HARMONICS, _LEAST_PARTING = 8, 32
 """Least harmonics of each tooth frequency, and of one where flanks part, because the time of parting must be resolved."""
 
+_BEYOND_TORQUES = 2
+"""Least number of orders over that of a torque on an inertia: the teeth make sidebands of it."""
+
 _FEW = 6
 """Harmonics where the common period is too long to have all its orders."""
 
@@ -218,7 +223,8 @@ class SpeedCurves(Driven):
     @cached_property
     def resolvable(self) -> bool:
         """Whether the common period is short enough to have all its orders."""
-        return _LEAST_HARMONICS * max(self.excitation.orders) <= MOST_ORDERS
+        torques = _BEYOND_TORQUES * max(self.excitation.torque_orders, default=0)
+        return max(_LEAST_HARMONICS * max(self.excitation.orders), torques) <= MOST_ORDERS
 
     @cached_property
     def tolerance(self) -> float:
@@ -237,7 +243,8 @@ class SpeedCurves(Driven):
     def orders(self, frequencies: Floats) -> Indices:
         """Return the number of orders (s,) that is tried first: powers of 2 of harmonics."""
         least, most = _LEAST_PARTING if self.excitation.parting else _LEAST_HARMONICS, max(self.excitation.orders)
-        harmonics = 2 ** np.ceil(np.log2(np.maximum(self.felt_orders(frequencies) / most, least))).astype(int)
+        beyond = max(least, _BEYOND_TORQUES * max(self.excitation.torque_orders, default=0) / most)
+        harmonics = 2 ** np.ceil(np.log2(np.maximum(self.felt_orders(frequencies) / most, beyond))).astype(int)
         return np.asarray(np.minimum(harmonics * most, self.most_orders), np.intp)
 
     def felt_orders(self, frequencies: Floats) -> Floats:
@@ -258,10 +265,19 @@ class SpeedCurves(Driven):
         """Return whether modes vibrate noticeably where they meet the orders (..., r)."""
         modes = self.modes
         forces = self.driving[np.minimum(orders, len(self.driving) - 1).astype(int)]
+        driven = np.einsum("...rm,rm->...r", forces, np.abs(modes.mesh))
+        if self.excitation.torques:
+            reached = orders <= _BEYOND_TORQUES * max(self.excitation.torque_orders)
+            driven = driven + np.where(reached, self._by_torques.max(axis=0, initial=0.0), 0.0)
         # A step drives as many orders at once as lie within the width of a resonance.
         magnified = np.maximum(1 / (2 * modes.ratio), orders)
-        amplitudes = modes.told / modes.omega**2 * np.einsum("...rm,rm->...r", forces, np.abs(modes.mesh)) * magnified
+        amplitudes = modes.told / modes.omega**2 * driven * magnified
         return np.asarray(amplitudes > FELT, bool)
+
+    @cached_property
+    def _by_torques(self) -> Floats:
+        """Amplitudes (t, r) with which torques on inertias drive each mode, at each of their orders."""
+        return 2 * np.abs(self.excitation.torque_vectors(self.system)[1] @ self.modes.shapes)
 
     @cached_property
     def standstill(self) -> float:
@@ -311,7 +327,8 @@ class SpeedCurves(Driven):
 
     def response(self, motions: Motions) -> PeriodicResponse:
         """Return the response of the motions, with turns and torques."""
-        outputs = outputs_of(self.system, self.static, motions.flexible, motions.forces)
+        pushed = self.pushed(motions.omega, np.arange(2 * motions.orders + 1))
+        outputs = outputs_of(self.system, self.static, motions.flexible, motions.forces, pushed)
         return PeriodicResponse(
             system=self.system,
             excitation=self.excitation,
@@ -332,6 +349,9 @@ class SpeedCurves(Driven):
         others = motions.flexible.others[:, :, self.system.torque_outputs]
         at_rest = (np.abs(self.system.stiffness * self.static.approach) / self._stiffest, self.references[0])
         torques = np.einsum("shij,shj->shi", others, motions.forces)
+        if self.excitation.torques:
+            pushed = self.pushed(motions.omega, np.arange(2 * motions.orders + 1))
+            torques[:, pushed.rows] += pushed.others[:, :, self.system.torque_outputs]
         result, start, middle = np.zeros(len(motions.omega)), motions.orders, motions.orders * 3 // 2
         for waves, rest in zip((motions.approach, torques), at_rest, strict=True):
             sizes = 2 * np.abs(waves[:, 1:])
@@ -384,7 +404,12 @@ class SpeedCurves(Driven):
         rows = _nearest(own, met)
         inside = (met > places[0]) & (met < places[-1]) & np.isclose(own[rows], nearest, rtol=1e-12)
         forces = 2 * np.abs(motions.forces[rows, orders])
-        heights = modes.told / modes.omega**2 * (forces * np.abs(modes.mesh)).sum(axis=-1) / (2 * modes.ratio)
+        driven = (forces * np.abs(modes.mesh)).sum(axis=-1)
+        if self.excitation.torques:
+            acting = self.excitation.torque_vectors(self.system)[0]
+            inside_orders = acting < motions.forces.shape[1]
+            driven[acting[inside_orders] - 1] += self._by_torques[inside_orders]
+        heights = modes.told / modes.omega**2 * driven / (2 * modes.ratio)
         step = np.gradient(places)[_nearest(places, met)] if len(places) > 1 else np.zeros_like(met)
         # Those of neighbouring orders that are wider than their distance make no peaks of their own.
         apart = modes.ratio * orders < _APART * np.gcd.reduce(self.excitation.orders)

@@ -189,7 +189,7 @@ def _plan(moving: MovingSystem, excitation: Excitation, duration: float, samplin
 
 def _step(moving: MovingSystem, excitation: Excitation, sampling: float, greatest: float) -> tuple[float, int]:
     """Return the length of a step (s), and the number of steps from sample to sample."""
-    longest = step_for(moving.system, greatest * max(excitation.orders), 1 / sampling)
+    longest = step_for(moving.system, greatest * excitation.highest, 1 / sampling)
     stride = max(1, math.ceil(1 / (sampling * longest) * (1 - 1e-9)))
     return 1 / (sampling * stride), stride
 

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gearcad.core.errors import ParameterError, SolverError, require_number, require_whole
-from gearcad.core.records import Floats, Indices, Wholes, freeze
+from gearcad.core.records import Complexes, Floats, Indices, Wholes, freeze
 from gearcad.dynamics.trains.mesh_excitation import Excitation, MeshExcitation
 from gearcad.dynamics.trains.shaft_lines import System
 from gearcad.dynamics.trains.steady_response import senses, static_state
@@ -104,9 +104,14 @@ def step_for(system: System, tooth_frequency: float, longest: float) -> float:
     return min(steps)
 
 
-def settling_time(system: System) -> float:
-    """Return the time (s) after which a thousandth is left of vibrations that meshes shake; infinite without damping."""
-    squares, rates = _shaken(system)
+def settling_time(system: System, *, everywhere: bool = False) -> float:
+    """Return the time (s) after which a thousandth is left of vibrations that meshes shake; infinite without damping.
+
+    With `everywhere` of all vibrations, as torques on inertias shake them.
+    """
+    squares, rates = _shaken(system, -1.0 if everywhere else _SHARE)
+    if everywhere:
+        squares, rates = (each[squares > _NO_SQUARE * squares.max()] for each in (squares, rates))
     slowest = float(np.minimum(rates, np.sqrt(squares)).min(initial=math.inf))
     return _SETTLED / slowest if slowest > 0 else math.inf
 
@@ -116,11 +121,14 @@ def shaken_frequency(system: System) -> float:
     return math.sqrt(float(_shaken(system)[0].max(initial=0.0)))
 
 
-def _shaken(system: System) -> tuple[Floats, Floats]:
-    """Return squares (1/s²) and rates of decay (1/s) of the modes that the meshes shake, with the meshes at their mean."""
+def _shaken(system: System, share: float = _SHARE) -> tuple[Floats, Floats]:
+    """Return squares (1/s²) and rates of decay (1/s) of the modes that the meshes shake, with the meshes at their mean.
+
+    These have a `share` of their energy in the meshes at least.
+    """
     squares, modes = np.linalg.eigh(system.stiffness_matrix())
     energy = ((modes.T @ system.mesh) ** 2 * system.stiffness).sum(axis=1)
-    felt = energy > _SHARE * np.maximum(squares, 1e-9 * squares.max())
+    felt = energy > share * np.maximum(squares, 1e-9 * squares.max())
     rates = np.einsum("in,ij,jn->n", modes, system.damping_matrix(), modes) / 2
     return squares[felt], np.maximum(rates[felt], 0.0)
 
@@ -308,6 +316,53 @@ def _long_error(mesh: MeshExcitation, sense: float) -> tuple[Floats, int]:
     return sense * _MICRO * np.fft.irfft(spectrum, count, norm="forward"), teeth
 
 
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Ripple:
+    """Torque on one inertia beside that at rest: Re sum (`amplitude` e^(i 2 pi `order` turns)) of the common period, in N·m.
+
+    `felt` (n,) is what the coordinates of a System feel of 1 N·m; `order` (h,) are whole numbers.
+    """
+
+    felt: Floats
+    order: Wholes
+    amplitude: Complexes
+
+    @property
+    def cycles(self) -> int:
+        """How often the torque comes again in the common period."""
+        return int(np.gcd.reduce(self.order))
+
+    def samples(self, count: int) -> Floats:
+        """Return the torque (count,) in N·m at even steps of the part of the common period after which it comes again."""
+        spectrum = np.zeros(count // 2 + 1, complex)
+        np.add.at(spectrum, self.order // self.cycles, self.amplitude / 2)
+        return np.asarray(np.fft.irfft(spectrum, count, norm="forward"), float)
+
+
+_PER_RIPPLE, _LONGEST_RIPPLE = 2048, 2**20
+"""Samples over the quickest wave of a torque - straight lines between them are off by a millionth - and greatest number."""
+
+
+def ripples_of(system: System, excitation: Excitation) -> tuple[Ripple, ...]:
+    """Return the torques of an excitation on the inertias of a System, one for each of these."""
+    names, found = system.names[1], []
+    for name in dict.fromkeys(each.inertia for each in excitation.torques):
+        own = [(q, each) for q, each in zip(excitation.torque_orders, excitation.torques, strict=True) if each.inertia == name]
+        if name in names:
+            order, amplitude = np.array([q for q, _ in own], np.int64), np.array([2 * each.coefficient for _, each in own])
+            found.append(Ripple(felt=system.inertias[:, names.index(name)], order=order, amplitude=amplitude))
+    return tuple(found)
+
+
+def _samples_of(ripples: tuple[Ripple, ...]) -> Floats:
+    """Return the samples (e, k) of torques, as many as the quickest wave of all asks for."""
+    if not ripples:
+        return np.zeros((0, 1))
+    quickest = max(int(each.order.max()) // each.cycles for each in ripples)
+    count = min(_PER_RIPPLE * 2 ** math.ceil(math.log2(quickest)), _LONGEST_RIPPLE)
+    return np.array([each.samples(count) for each in ripples])
+
+
 _NO_SQUARE = 1e-11
 """Part of the greatest square of a natural frequency below which a square is rounding."""
 
@@ -374,13 +429,15 @@ class MovingSystem:
     """A System and the springs of its teeth, ready to be run in time.
 
     `senses` (m,): which flanks the mean load presses, 1 or -1. `driven` (n,): what its coordinates feel of a rising speed, for
-    1/s more of the frequency of the common period in a second. Raises GeometryError where the torques do not balance.
+    1/s more of the frequency of the common period in a second. `ripples`: torques beside those at rest. Raises GeometryError
+    where the torques do not balance.
     """
 
     system: System
     laws: tuple[MeshLaw, ...]
     senses: Floats
     driven: Floats
+    ripples: tuple[Ripple, ...] = ()
 
     @classmethod
     def lumped(cls, system: System, excitation: Excitation, *, driven: Floats | None = None) -> MovingSystem:
@@ -388,7 +445,8 @@ class MovingSystem:
         excitation.fits(system)
         pressed = senses(system)
         laws = lumped_laws(excitation, system.stiffness, pressed)
-        return cls(system=system, laws=laws, senses=pressed, driven=np.zeros(system.size) if driven is None else driven)
+        felt = np.zeros(system.size) if driven is None else driven
+        return cls(system=system, laws=laws, senses=pressed, driven=felt, ripples=ripples_of(system, excitation))
 
     @property
     def rows(self) -> int:
@@ -447,7 +505,7 @@ class MovingSystem:
 
     def _require_short(self, course: RunCourse, step: float, count: int) -> None:
         """Raise ParameterError where more than a base pitch may pass in a step, or more in all than a place can tell."""
-        order, line = max(law.order for law in self.laws), course.frequency
+        order, line = max((law.order for law in self.laws), default=1), course.frequency
         fastest = order * float(np.abs(line.value).max())
         if fastest * step > 1 + _ROUNDING:
             permitted = f"must be at most {1 / fastest:.6g} s: one base pitch of the quickest mesh"
@@ -482,7 +540,7 @@ class MovingSystem:
         def flat(name: str) -> tuple[Floats, Wholes, Wholes]:
             """Return a quantity of all meshes in one row, where each mesh begins in it, and how many values each has."""
             counts = np.array([len(getattr(law, name)) for law in laws], np.int64)
-            return np.concatenate([getattr(law, name) for law in laws]), np.cumsum(counts) - counts, counts
+            return np.concatenate([getattr(law, name) for law in laws] or [np.zeros(0)]), np.cumsum(counts) - counts, counts
 
         positions, starts, teeth = flat("position")
         errors, error_starts, error_counts = flat("error")
@@ -497,12 +555,19 @@ class MovingSystem:
             mesh=_plain(of.mesh * self.senses),
             load=_plain(of.load),
             driven=_plain(self.driven),
-            marks=_plain(np.column_stack([np.array(marks, float), starts, teeth, error_starts, error_counts, teeth_of])),
-            tables=_plain(np.array([law.table.cells for law in laws])),
+            marks=_plain(
+                np.column_stack([np.array(marks, float).reshape(-1, 8), starts, teeth, error_starts, error_counts, teeth_of])
+            ),
+            tables=_plain(
+                np.array([law.table.cells for law in laws]).reshape(len(laws), -1, 8) if laws else np.zeros((0, 1, 8))
+            ),
             teeth=_plain(np.array([positions, flat("slope")[0]])),
             errors=_plain(errors),
             rows=_plain(self._rows),
             free=_plain(self._free),
+            ripples=_plain(np.array([each.felt for each in self.ripples]).reshape(-1, of.size).T),
+            waves=_plain(_samples_of(self.ripples)),
+            cycles=np.array([each.cycles for each in self.ripples], float),
             scale=self._scale,
         )
 

@@ -50,6 +50,9 @@ class MotionModel(NamedTuple):
     speed of the common period that rises by 1/s in a second; `scale` (1/s) weighs coordinates and rates in a disturbance, and
     `free` (n, r) are unit vectors of what turns as a whole, which is none.
 
+    Torques beside those at rest act along `ripples` (n, e); `waves` (e, k) are even samples of each over the part of the common
+    period after which it comes again, `cycles` (e,) times in that period.
+
     `marks` (m, 13) of each mesh are what the constants below name. `tables` (m, cells, 8) are cells of even width from the
     first to the last place of a tooth, each with the integral of stiffness before it, its mean, slope, the same three of
     stiffness times gap, and the error at its beginning with its slope. `teeth` (2, z) are more gap, and how much more per base
@@ -68,6 +71,9 @@ class MotionModel(NamedTuple):
     errors: Floats
     rows: Floats
     free: Floats
+    ripples: Floats
+    waves: Floats
+    cycles: Floats
     scale: float
 
 
@@ -571,6 +577,7 @@ def run(
     # stands here: with two more of them a step takes twice as long.
     mesh, marks, tables, teeth, errors = model.mesh, model.marks, model.tables, model.teeth, model.errors
     load, driven, rows = model.load, model.driven, model.rows
+    ripples, waves, cycles = model.ripples, model.waves, model.cycles
     z, v, dz, dv, df = state.z, state.v, state.dz, state.dv, state.df
     ends, crests, parted, reach, samples = records.ends, records.crests, records.parted, records.reach, len(records.approach)
     speeds, factors = course.speed, course.factor
@@ -585,6 +592,7 @@ def run(
     y, rates, shift, push, found = np.zeros(m), np.zeros(m), np.zeros(m), np.zeros(n), np.zeros((3, m))
     for j in range(m):
         found[0, j] = state.force[j]
+    loaded = np.zeros(n)
     speed, turns, passed, at_speed, at_factor, window = 0.0, 0.0, 0.0, 0, 0, 0
     taken = begin // records.stride + 1 if begin > 0 else 0
     for step in range(begin - 1, begin + count + 1):
@@ -595,7 +603,20 @@ def run(
         if step < begin:
             continue
         factor, faster = (passed - passed_before) / h, (speed - speed_before) / h
-        _moved(mesh, steps, z, v, push, load, driven, factor, faster, still, y, rates)
+        if cycles.size:
+            # All torques of the step are put into one load: it acts with a factor of 1.
+            for i in range(n):
+                loaded[i] = factor * load[i]
+            for e in range(cycles.size):
+                along = 0.5 * (turns_before + turns) * cycles[e]
+                along = (along - math.floor(along)) * waves.shape[1]
+                k = min(int(along), waves.shape[1] - 1)
+                torque = waves[e, k] + (along - k) * (waves[e, (k + 1) % waves.shape[1]] - waves[e, k])
+                for i in range(n):
+                    loaded[i] += factor * torque * ripples[i, e]
+            _moved(mesh, steps, z, v, push, loaded, driven, 1.0, faster, still, y, rates)
+        else:
+            _moved(mesh, steps, z, v, push, load, driven, factor, faster, still, y, rates)
         for j in range(m):
             from_place = marks[j, _ORDER] * turns_before + marks[j, _LEAD]
             to_place = marks[j, _ORDER] * turns + marks[j, _LEAD]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -12,9 +13,11 @@ import numpy as np
 from gearcad.core.errors import ParameterError
 from gearcad.core.records import Floats, Notice, Wholes
 from gearcad.dynamics.time_domain.motion import Motion, MovingSystem, PiecewiseLine, RunCourse, Start, settling_time, step_for
+from gearcad.dynamics.time_domain.order_tracks import no_tracks, order_tracks
 from gearcad.dynamics.time_domain.transient_result import Transient, TransientOptions
 from gearcad.dynamics.trains.mesh_excitation import Excitation
 from gearcad.dynamics.trains.shaft_lines import System
+from gearcad.dynamics.trains.speed_orders import speed_orders
 from gearcad.dynamics.trains.steady_response import static_state
 from gearcad.dynamics.trains.train import Train, parts_of
 
@@ -40,7 +43,7 @@ def acceleration(train: Train, system: System, *, backwards: bool = False) -> Ac
     nothing = np.zeros(system.size)
     if train.held:
         return Acceleration(nothing, "the ends of its shafts are held")
-    parts, first = parts_of(train), train.meshes[0].pinion
+    parts, first = parts_of(train), train.reference
     if parts.free.shape[1] != 1:
         return Acceleration(nothing, "its parts turn by themselves")
     ratios = np.array([train.speed_ratios[inertia.name] for inertia in parts.inertias])
@@ -56,7 +59,7 @@ def acceleration(train: Train, system: System, *, backwards: bool = False) -> Ac
     return Acceleration(drive * float(turn @ turn) / float(drive @ turn) - turn, "")
 
 
-def per_common_period(teeth: int, order: int) -> float:
+def per_common_period(teeth: int, order: float) -> float:
     """Return the speed of a pinion (rad/s) where the common period of `order` of its teeth has a frequency of 1/s."""
     return 2 * math.pi * order / teeth
 
@@ -96,14 +99,15 @@ def run_transient(
     `otherwise` is the speed (rpm) where the options have none; `tell` receives the part that is done. Raises ParameterError for
     what would take too long or too much memory, with what would do, and SolverError.
     """
-    teeth, order = train.meshes[0].teeth, excitation.orders[0]
+    teeth, order = (train.meshes[0].teeth, excitation.orders[0]) if train.meshes else (1, excitation.period)
     speeds = options.speeds(otherwise)
     begin, end = (speed * teeth / 60 / order for speed in speeds)
     speedup = acceleration(train, system, backwards=begin + end < 0)
     moving = MovingSystem.lumped(system, excitation, driven=speedup.felt * per_common_period(teeth, order))
-    quickest = max(abs(begin), abs(end)) * max(excitation.orders)
-    step, stride, count = _steps(moving, options, quickest, abs(max(speeds, key=abs)) * teeth / 60)
-    start, notices = _settled(moving, options, begin, abs(begin) * max(excitation.orders))
+    quickest = max(abs(begin), abs(end)) * excitation.highest
+    first = max(abs(max(speeds, key=abs)) * teeth / 60, max(abs(begin), abs(end)) * max(excitation.torque_orders, default=0))
+    step, stride, count = _steps(moving, options, quickest, first)
+    start, notices = _settled(moving, options, begin, abs(begin) * excitation.highest)
     course = RunCourse(
         frequency=PiecewiseLine(time=np.array([0.0, options.duration]), value=np.array([begin, end])), torque=_torque(options)
     )
@@ -113,7 +117,19 @@ def run_transient(
         text = f"the torque that speeds up the train's own inertias is left out: {speedup.why}"
         notices = (*notices, Notice("no-acceleration-torque", text))
     rpm = PiecewiseLine(time=course.frequency.time, value=np.array(speeds))
-    return _result(moving, excitation, options, motion, rpm, course.torque, references, notices)
+    found = _result(moving, excitation, options, motion, rpm, course.torque, references, notices)
+    return _tracked(train, excitation, found) if options.tracked else found
+
+
+def _tracked(train: Train, excitation: Excitation, run: Transient) -> Transient:
+    """Return the run with the amplitudes of its orders along the speed, or with a notice why there are none."""
+    orders = speed_orders(train, excitation, run.options.orders)
+    period = excitation.period / (train.meshes[0].teeth if train.meshes else 1)
+    why = no_tracks(run.time, run.speed, period)
+    if why:
+        return replace(run, notices=(*run.notices, Notice("no-order-tracks", why, "transient")))
+    tracks = order_tracks(run.time, run.speed, run.force, run.shaft_torque, names=run.names, orders=orders, period=period)
+    return replace(run, tracks=tracks)
 
 
 def _steps(moving: MovingSystem, options: TransientOptions, quickest: float, first: float) -> tuple[float, int, int]:
@@ -162,7 +178,7 @@ def _settled(
     """Return the state that lasts at the first speed under the first torque, with a notice if time was too short for it."""
     rest = moving.at_rest()
     still = Start(coordinates=options.torque_from * rest.coordinates, rates=rest.rates)
-    wanted = settling_time(moving.system)
+    wanted = settling_time(moving.system, everywhere=bool(moving.ripples))
     longest = max(options.duration, _SETTLING_TEETH / quickest if quickest else 0.0)
     step = step_for(moving.system, quickest, longest / 200)
     lasts = min(wanted, longest, step * _MOST_STEPS / 4)
@@ -180,8 +196,11 @@ def _settled(
     return start, (Notice("not-settled", text),)
 
 
-def _window_ends(frequency: PiecewiseLine, order: int, step: float, count: int) -> Wholes:
-    """Return the steps (w,) before which windows end: a tooth of the first mesh, several, or a hundredth of all."""
+def _window_ends(frequency: PiecewiseLine, order: float, step: float, count: int) -> Wholes:
+    """Return the steps (w,) before which windows end: a tooth of the first mesh, several, or a hundredth of all.
+
+    Without a mesh a turn of the first inertia stands for a tooth.
+    """
     size = 1 if count < 1_000_000 else count // 1_000_000
     at = np.arange(0, count + size, size).clip(max=count)
     teeth = np.abs(np.diff(order * frequency.integrals(step * at)))

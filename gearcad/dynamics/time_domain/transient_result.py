@@ -9,11 +9,14 @@ from typing import Annotated, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gearcad.core.errors import GeometryError
-from gearcad.core.quantities import DURATION, SAMPLING, SPEED, Range, Words, require_fields
+from gearcad.core.errors import GeometryError, ParameterError
+from gearcad.core.quantities import DURATION, SAMPLING, SPEED, Choice, Range, Words, require_fields
 from gearcad.core.records import Floats, JsonObject, Notice, concise, freeze
+from gearcad.dynamics.time_domain.order_tracks import OrderTracks
+from gearcad.dynamics.trains.torque_excitation import ORDER
 
 _FACTOR = Range("", -1e3, 1e3)
+_SWITCH = {"on": True, "off": False}
 _TIME = DURATION._replace(least=0.0)
 
 
@@ -25,7 +28,9 @@ class TransientOptions:
     speed of the course at one speed), negative where it turns back. All torques and preloads are those of the train times a
     factor: `torque_from`, and from `torque_at` (s; None: half of the duration) on `torque_to` (None: no change), over
     `torque_over` seconds, 0 for a step. Before time 0 the train has settled at what it begins with. `sampling` (Hz; None: 16
-    samples a tooth at the greatest speed) is that of the courses: the greatest forces are those of all steps between.
+    samples a tooth at the greatest speed) is that of the courses: the greatest forces are those of all steps between. With
+    `order_tracks` "on" a run whose speed changes has its spectrogram, and the amplitudes of orders along the speed: of the
+    teeth, of torques on inertias, and of those in `orders` (of the first pinion's speed).
     """
 
     speed_from: Annotated[float | None, SPEED, Words("speed at the beginning", "n_1")] = None
@@ -36,11 +41,16 @@ class TransientOptions:
     torque_at: Annotated[float | None, _TIME, Words("when the torques begin to change")] = None
     torque_over: Annotated[float, _TIME, Words("how long the torques change")] = 0.0
     sampling: Annotated[float | None, SAMPLING, Words("samples per second")] = None
+    order_tracks: Annotated[str, Choice(tuple(_SWITCH)), Words("whether orders are tracked along the speed")] = "off"
+    orders: Annotated[tuple[float, ...], ORDER, Words("more orders that are tracked")] = ()
 
     __repr__ = concise
 
     def __post_init__(self) -> None:
         require_fields(self)
+        object.__setattr__(self, "orders", tuple(map(float, self.orders)))
+        if self.orders and not self.tracked:
+            raise ParameterError("orders", list(self.orders), 'must be left out unless order_tracks is "on"')
         if self.torque_to is None and (self.torque_at is not None or self.torque_over):
             key = "torque_over" if self.torque_at is None else "torque_at"
             raise GeometryError(key, getattr(self, key), "needs torque_to, the factor of the torques at the end", "s")
@@ -49,6 +59,11 @@ class TransientOptions:
             most = self.duration - (self.changes_at if self.torque_over else 0.0)
             permitted = f"must be at most {most:g} s: the torques change within the duration of {self.duration:g} s"
             raise GeometryError(key, getattr(self, key), permitted, "s")
+
+    @property
+    def tracked(self) -> bool:
+        """Whether orders are tracked along the speed."""
+        return _SWITCH[self.order_tracks]
 
     @property
     def changes_at(self) -> float:
@@ -102,7 +117,8 @@ class Transient:
     torque in either sense over the `shaft_references` (s,) in N·m, nan where there are none. All steps of `step` s are looked
     at.
 
-    `names` are those of meshes, inertias and shafts; `parting` says whether flanks may part.
+    `names` are those of meshes, inertias and shafts; `parting` says whether flanks may part. `tracks` are the amplitudes of
+    orders along the speed, where they were asked for.
     """
 
     options: TransientOptions
@@ -124,6 +140,7 @@ class Transient:
     step: float
     parting: bool
     notices: tuple[Notice, ...]
+    tracks: OrderTracks | None = None
 
     def __post_init__(self) -> None:
         freeze(self)
@@ -200,9 +217,11 @@ class Transient:
             "greatest": [each._asdict() for each in self.greatest],
             "greatest_of_shafts": [each._asdict() for each in self.greatest_of_shafts],
             "parted": [each._asdict() for each in self.partings],
+            **({} if self.tracks is None else {"order_tracks": self.tracks.to_dict()}),
         }
 
     def arrays(self) -> dict[str, Floats]:
         """Return the arrays of the .npz file by name."""
         names = "time speed torque approach force turn shaft_torque windows window_speed factor parted shaft_factor".split()
-        return {f"transient_{name}": getattr(self, name) for name in names}
+        found = {f"transient_{name}": getattr(self, name) for name in names}
+        return found | ({} if self.tracks is None else self.tracks.arrays())

@@ -1,4 +1,4 @@
-"""Excitation of the meshes of a train or pair: mesh stiffness over the teeth, transmission errors and backlash.
+"""Excitation of a train or pair: mesh stiffness over the teeth, transmission errors, backlash, and torques on inertias.
 
 Inputs are in µm and degrees; solvers take SI units over the phase theta of the common period (rad). The phase of a mesh is in
 radians, 2 pi over a tooth. Coefficients are those of sum_n c_n e^(i n phase), n from -count to count; those from 0 on are
@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gearcad.core.errors import GeometryError, ParameterError, plain_numbers, require_number
-from gearcad.core.records import Complexes, Floats, PerGear
+from gearcad.core.records import Complexes, Floats, Indices, PerGear
 from gearcad.dynamics.trains.members import Inertia, StiffnessWave, ToothMesh, line_backlash, turning_pieces
 from gearcad.dynamics.trains.shaft_lines import System
 from gearcad.dynamics.trains.tooth_deviations import (
@@ -192,19 +192,33 @@ def cycle_excitation(
 
 
 @dataclass(frozen=True, kw_only=True)
-class Excitation:
-    """Excitation of all meshes of a system, in its order.
+class TorqueWave:
+    """A harmonic torque on the inertia `inertia`: its coefficient (N·m) of e^(i phase), half the amplitude.
 
-    `orders` says how many teeth of each mesh pass in the common period.
+    `frequency_ratio` is its frequency over the tooth frequency of the first mesh, or over the frequency at which the first
+    inertia turns where there is no mesh.
+    """
+
+    inertia: str
+    frequency_ratio: Fraction
+    coefficient: complex
+
+
+@dataclass(frozen=True, kw_only=True)
+class Excitation:
+    """Excitation of all meshes of a system, in its order, and the `torques` that act on its inertias beside those at rest.
+
+    `orders` says how many teeth of each mesh pass in the common period, after which torques come again too.
     """
 
     meshes: tuple[MeshExcitation, ...]
+    torques: tuple[TorqueWave, ...] = ()
 
     def __post_init__(self) -> None:
-        if not self.meshes:
+        if not (self.meshes or self.torques):
             raise ParameterError("meshes", 0, "must be at least one mesh")
         # More teeth than this before everything comes again: the ratio is as good as irrational for a periodic solution.
-        if max(self.orders) > 20_000:
+        if max(self.orders, default=0) > 20_000:
             raise GeometryError(
                 "frequency_ratio", max(self.orders), "must let all meshes come again within 20000 teeth", "teeth"
             )
@@ -212,14 +226,47 @@ class Excitation:
     @cached_property
     def orders(self) -> tuple[int, ...]:
         """Tooth frequency of each mesh over the frequency of the common period."""
+        return tuple(int(self._period * mesh.frequency_ratio) for mesh in self.meshes)
+
+    @cached_property
+    def torque_orders(self) -> tuple[int, ...]:
+        """Frequency of each torque over the frequency of the common period."""
+        return tuple(int(self._period * each.frequency_ratio) for each in self.torques)
+
+    @property
+    def highest(self) -> int:
+        """Greatest order of the common period at which teeth come or a torque turns: steps in time must resolve it."""
+        return max((*self.orders, *self.torque_orders))
+
+    @cached_property
+    def _period(self) -> Fraction:
+        """Common period in teeth of the first mesh, or in turns of the first inertia where there is no mesh."""
         periods = [(mesh.error.teeth if mesh.error else 1) / mesh.frequency_ratio for mesh in self.meshes]
-        common = Fraction(math.lcm(*(each.numerator for each in periods)), math.gcd(*(each.denominator for each in periods)))
-        return tuple(int(common * mesh.frequency_ratio) for mesh in self.meshes)
+        periods += [1 / each.frequency_ratio for each in self.torques]
+        return Fraction(math.lcm(*(each.numerator for each in periods)), math.gcd(*(each.denominator for each in periods)))
+
+    @property
+    def period(self) -> float:
+        """Teeth of the first mesh that pass in the common period, or turns of the first inertia where there is no mesh."""
+        return float(self.orders[0] if self.orders else self._period)
 
     @property
     def fundamental(self) -> float:
-        """Frequency of the common period over the tooth frequency of the first mesh."""
-        return 1 / self.orders[0]
+        """Frequency of the common period over the tooth frequency of the first mesh, or over that of a turn without a mesh."""
+        return 1 / self.period
+
+    def torque_vectors(self, system: System) -> tuple[Indices, Complexes]:
+        """Return the orders (t,) of the common period, rising, at which torques act, and what the coordinates feel (t, n).
+
+        Torques on inertias that the System does not have are left out.
+        """
+        names, felt = system.names[1], dict[int, Complexes]()
+        for each, order in zip(self.torques, self.torque_orders, strict=True):
+            if each.inertia in names:
+                column: Complexes = np.asarray(each.coefficient * system.inertias[:, names.index(each.inertia)], complex)
+                felt[order] = felt[order] + column if order in felt else column
+        orders = sorted(felt)
+        return np.array(orders, np.intp), np.array([felt[order] for order in orders], complex).reshape(-1, system.size)
 
     @property
     def parting(self) -> bool:
@@ -230,18 +277,19 @@ class Excitation:
     def shakes(self) -> bool:
         """Whether a stiffness varies over the mesh cycle, or teeth have errors."""
         phases = 2 * np.pi * np.arange(1024) / 1024
-        return any(mesh.error is not None or np.ptp(mesh.stiffness.values(phases)) > 0 for mesh in self.meshes)
+        teeth = any(mesh.error is not None or np.ptp(mesh.stiffness.values(phases)) > 0 for mesh in self.meshes)
+        return teeth or bool(self.torques)
 
     @property
     def bonded(self) -> Excitation:
         """Same excitation with flanks that never part."""
-        return Excitation(meshes=tuple(replace(mesh, backlash=None) for mesh in self.meshes))
+        return replace(self, meshes=tuple(replace(mesh, backlash=None) for mesh in self.meshes))
 
     def fits(self, system: System) -> None:
         """Raise ParameterError unless there is one mesh for each of the system's, of positive mean stiffness."""
         if len(self.meshes) != len(system.stiffness):
             raise ParameterError("meshes", len(self.meshes), f"must be as many as the system has: {len(system.stiffness)}")
-        if not np.isfinite(system.stiffness).all() or system.stiffness.min() <= 0:
+        if not np.isfinite(system.stiffness).all() or system.stiffness.min(initial=np.inf) <= 0:
             raise ParameterError("mesh_stiffness", float(system.stiffness.min() * _MICRO), "must be above 0 N/µm", "N/µm")
 
     # ------------------------------------------------------------------ over the common period
@@ -372,7 +420,24 @@ def train_excitation(
                 stiffness=_wave(mesh), phase=-360 * mesh.phase, frequency_ratio=ratio, error=error, backlash=mesh.backlash
             )
         )
-    return Excitation(meshes=tuple(meshes))
+    return Excitation(meshes=tuple(meshes), torques=train_torques(train))
+
+
+def train_torques(train: Train) -> tuple[TorqueWave, ...]:
+    """Return the torques that act on the inertias of a train beside those at rest."""
+    if not train.excitations:
+        return ()
+    speeds, most = _exact_speeds(train)
+    teeth = train.meshes[0].teeth if train.meshes else 1
+    return tuple(
+        TorqueWave(
+            inertia=each.inertia,
+            frequency_ratio=Fraction(abs(speeds[each.inertia])).limit_denominator(most) * harmonic.order / teeth,
+            coefficient=harmonic.amplitude / 2,
+        )
+        for each in train.excitations
+        for harmonic in each.harmonics
+    )
 
 
 def _course_of_pair(mesh: EngagedMesh, errors: TransmissionError | None) -> MeshExcitation:
@@ -429,6 +494,15 @@ def given_deviations(pitch_deviations: Sequence[float]) -> ToothDeviations:
 
 def _tooth_ratios(train: Train) -> list[Fraction]:
     """Return the tooth frequency of every mesh over that of the first, by whole numbers of teeth: z3/z2 for a second stage."""
+    speeds, most = _exact_speeds(train)
+    return [
+        Fraction(abs(speeds[mesh.pinion])).limit_denominator(most) * Fraction(mesh.teeth, train.meshes[0].teeth)
+        for mesh in train.meshes
+    ]
+
+
+def _exact_speeds(train: Train) -> tuple[dict[str, float], int]:
+    """Return speeds of inertias over that of the first pinion by whole numbers of teeth, and their greatest denominator."""
     whole = [wheel_teeth(mesh) for mesh in train.meshes]
     exact = [
         ToothMesh(
@@ -444,11 +518,8 @@ def _tooth_ratios(train: Train) -> list[Fraction]:
     ]
     (speeds,) = turning_pieces([inertia.name for inertia in train.inertias], train.shafts, exact)
     most = math.prod(mesh.teeth * wheel for mesh, wheel in zip(train.meshes, whole, strict=True))
-    first = speeds[train.meshes[0].pinion]
-    return [
-        Fraction(abs(speeds[mesh.pinion] / first)).limit_denominator(most) * Fraction(mesh.teeth, train.meshes[0].teeth)
-        for mesh in train.meshes
-    ]
+    first = speeds[train.reference]
+    return {name: speed / first for name, speed in speeds.items()}, most
 
 
 def wheel_teeth(mesh: ToothMesh) -> int:

@@ -196,13 +196,53 @@ class Outputs(NamedTuple):
     travels: Complexes
 
 
-def outputs_of(system: System, static: StaticState, flexible: Flexibility, forces: Complexes) -> Outputs:
+class TorqueMotion(NamedTuple):
+    """Motion of the mean system under the torques of an excitation, at those `rows` (t,) of the orders at which they act.
+
+    Coefficients `approach` (s, t, m) of the flanks (m), and `others` (s, t, o) of the outputs of the System.
+    """
+
+    rows: Indices
+    approach: Complexes
+    others: Complexes
+
+
+def torque_motion(system: System, excitation: Excitation, omega: Floats, orders: Indices) -> TorqueMotion:
+    """Return the motion under the excitation's torques at fundamental frequencies omega (s,).
+
+    `orders` (q,) rise from 0 on.
+    With A = squares - w² + i w damping of the lines, V the meshes and K their complex stiffness it is
+    z = A^-1 (B - V K y) with (1 + V^T A^-1 V K) y = V^T A^-1 B. Torques of other orders are left out. Raises UndampedError.
+    """
+    acting, vectors = excitation.torque_vectors(system)
+    known = np.isin(acting, orders)
+    rows, vectors = np.searchsorted(orders, acting[known]), vectors[known]
+    meshes, others = system.mesh.shape[1], system.outputs.shape[1]
+    if not len(rows):
+        return TorqueMotion(rows, np.zeros((len(omega), 0, meshes), complex), np.zeros((len(omega), 0, others), complex))
+    w = (omega[:, None] * acting[known])[..., None]
+    modes = system.squares - w**2 + 1j * w * system.damping
+    least = _LOSS * (system.squares + w**2)
+    modes = np.where(np.abs(modes) < least, modes + 1j * least, modes)
+    stiffness = system.stiffness + 1j * w * system.mesh_damping
+    lines = np.einsum("nj,shn,nk->shjk", system.mesh, 1 / modes, system.mesh)
+    try:
+        free = ((vectors / modes) @ system.mesh)[..., None]
+        approach = np.linalg.solve(np.eye(meshes) + lines * stiffness[..., None, :], free)[..., 0]
+    except np.linalg.LinAlgError:
+        raise _undamped(system) from None
+    coordinates = (vectors - (stiffness * approach) @ system.mesh.T) / modes
+    return TorqueMotion(rows, np.asarray(approach, complex), np.asarray(coordinates @ system.outputs, complex))
+
+
+def outputs_of(system: System, static: StaticState, flexible: Flexibility, forces: Complexes, pushed: TorqueMotion) -> Outputs:
     """Return the outputs under forces (s, q, m) in N on the mean system, with the static ones in order 0.
 
-    The approach of the flanks is not among them.
+    `pushed` is the motion under the torques of the excitation. The approach of the flanks is not among the outputs.
     """
     others = np.einsum("shij,shj->shi", flexible.others, forces)
     others[:, 0] += static.others
+    others[:, pushed.rows] += pushed.others
     torques = system.torque_outputs
     return Outputs(others[..., : torques.start], others[..., torques], others[..., torques.stop :])
 
@@ -234,6 +274,10 @@ class Driven:
     def static(self) -> StaticState:
         """State at rest under the mean load. Raises GeometryError and SolverError."""
         return static_state(self.system)
+
+    def pushed(self, omega: Floats, orders: Indices) -> TorqueMotion:
+        """Return the motion of the mean system under the excitation's torques; see `torque_motion`."""
+        return torque_motion(self.system, self.excitation, omega, orders)
 
     @cached_property
     def senses(self) -> Floats:

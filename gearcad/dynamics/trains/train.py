@@ -16,6 +16,7 @@ from gearcad.core.errors import GeometryError, ParameterError, require_name
 from gearcad.core.quantities import SPEED, TORQUE, Whole, Words, require_fields
 from gearcad.core.records import Floats, JsonObject, Notice, concise
 from gearcad.dynamics.trains.members import GROUND, Graph, Inertia, MeshCourse, MeshPair, Shaft, ToothMesh, turning_pieces
+from gearcad.dynamics.trains.torque_excitation import TorqueExcitation, require_excitations
 
 
 class TrainModel(Enum):
@@ -35,7 +36,7 @@ class TrainModel(Enum):
 
 @dataclass(frozen=True, kw_only=True)
 class Train:
-    """Inertias, the shafts between them, the meshes of their teeth, and the torques on them.
+    """Inertias, the shafts between them, the meshes of their teeth, the torques on them, and what excites them besides teeth.
 
     `model` says what is known of the shafts: one word changes it. `torques` in N·m by the names of inertias, counter-clockwise
     positive; on a train that no shaft holds they must balance. `speed` in rpm is that of the first mesh's pinion. `order` is
@@ -50,18 +51,20 @@ class Train:
     torques: Mapping[str, float] = field(default_factory=dict)
     speed: Annotated[float, SPEED, Words("speed of the first mesh's pinion", "n_1")] = 0.0
     order: Annotated[int, Whole(2, 40), Words("degree of the polynomials on a shaft with mass")] = 12
+    excitations: tuple[TorqueExcitation, ...] = ()
 
     __repr__ = concise
 
     def __post_init__(self) -> None:
         require_name("name", self.name)
         require_fields(self)
-        for parameter in ("inertias", "shafts", "meshes"):
+        for parameter in ("inertias", "shafts", "meshes", "excitations"):
             object.__setattr__(self, parameter, tuple(getattr(self, parameter)))
         object.__setattr__(self, "torques", dict(self.torques))
         for inertia, torque in self.torques.items():
             TORQUE.require(f"torques.{inertia}", torque)
         self._graph.require_one_train(self.torques)
+        require_excitations(self.excitations, [inertia.name for inertia in self.inertias])
         object.__setattr__(self, "shafts", tuple(shaft.on_gears(self.meshes) for shaft in self.shafts))
         if self.model is TrainModel.ISOLATED and not self.meshes:
             raise GeometryError(
@@ -86,6 +89,11 @@ class Train:
     @property
     def _graph(self) -> Graph:
         return Graph(self.inertias, self.shafts, self.meshes)
+
+    @property
+    def reference(self) -> str:
+        """Name of the inertia whose speed is that of the train: the first mesh's pinion, or else the first inertia."""
+        return self._graph.reference
 
     @cached_property
     def speed_ratios(self) -> dict[str, float]:
@@ -340,13 +348,15 @@ def train_document(train: Train) -> JsonObject:
     Speeds (rpm) and tooth frequencies (Hz) are there where `train.speed` is given. Forces (N) are the mean ones of the model.
     For a pair under no load yet there is its name, but no stiffness, and no forces in its train.
     """
-    own = {key: _plain(value) for key, value in _fields(train).items() if key not in ("name", "inertias", "shafts", "meshes")}
+    of_parts = ("name", "inertias", "shafts", "meshes", "excitations")
+    own = {key: _plain(value) for key, value in _fields(train).items() if key not in of_parts}
     forces = static_forces(train).tolist() if not _waiting(train) else [None] * len(train.meshes)
     return {
         "train": own | {"held": train.held},
         "inertia": {each.name: _of_inertia(train, each) for each in train.inertias},
         "shaft": {each.name: _of_shaft(each) for each in train.shafts},
         "mesh": {each.name: _of_mesh(train, each, force) for each, force in zip(train.meshes, forces, strict=True)},
+        **({"excitation": {each.name: each.document() for each in train.excitations}} if train.excitations else {}),
     }
 
 
