@@ -40,6 +40,7 @@ from gearcad.check.pictures import (
     ToothSurface,
     along_face,
 )
+from gearcad.check.plastic import PlasticCheck
 from gearcad.check.relief_start import ReliefStart
 from gearcad.check.summary import PlaneSummary, SolidSummary, Summary, root_peaks
 from gearcad.check.task import CheckTask, shown_contact
@@ -129,6 +130,7 @@ class CheckResult(Pictured, ABC):
     notices: tuple[Notice, ...]
     relief_starts: tuple[ReliefStart, ...] = ()
     losses: MeshLosses | None = None
+    plastic: PlasticCheck | None = None
 
     model: ClassVar[Model]
 
@@ -373,6 +375,7 @@ def check_document(result: CheckResult) -> JsonObject:
         "safeties": result.safeties.to_dict(),
         "convergence": [each.to_dict() for each in result.convergence],
         "relief_starts": [start.to_dict() for start in result.relief_starts],
+        **({} if result.plastic is None else {"plastic": result.plastic.to_dict()}),
         "comparisons": [comparison.to_dict() for comparison in result.comparisons],
         "explanations": result.explanations.to_dict(),
         "warnings": list(result.warnings),

@@ -14,6 +14,7 @@ from gearcad.check.notices import common_notices
 from gearcad.check.on_shafts import load_on_shafts, shaft_notices
 from gearcad.check.options import Model
 from gearcad.check.pictures import tooth_stresses
+from gearcad.check.plastic import plastic_check, plastic_notices
 from gearcad.check.relief_start import relief_starts, start_comparisons, start_notices
 from gearcad.check.result import CheckResult, PlaneCheck, SolidCheck
 from gearcad.check.summary import PLANE, SOLID, SolidSummary, summarise_plane, summarise_solid
@@ -149,8 +150,15 @@ def check_plane(task: CheckTask, tell: Agenda) -> PlaneCheck:
     tell("torque sweep")
     sweep = sweep_points(cycle, task.torques)
     tell("rating")
-    comparisons = (*compare_plane(task, cycle, summary, convergence), *start_comparisons(task, starts))
+    plastic = plastic_check(task, cycle, summary)
+    beside_guideline = () if plastic is None else plastic.comparisons(task.options.root_band / 100)
+    comparisons = (
+        *compare_plane(task, cycle, summary, convergence),
+        *start_comparisons(task, starts),
+        *beside_guideline,
+    )
     notices = (
+        *plastic_notices(task, plastic),
         *common_notices(task, cycle, summary),
         *plane_notices(task),
         *wide_plane_contacts(cycle),
@@ -167,6 +175,7 @@ def check_plane(task: CheckTask, tell: Agenda) -> PlaneCheck:
         notices=notices,
         relief_starts=starts,
         losses=mesh_losses(task, cycle),
+        plastic=plastic,
     )
 
 
@@ -263,8 +272,15 @@ def check_solid(task: CheckTask, agenda: Agenda) -> SolidCheck:
     sweep = sweep_points(cycle, task.torques)
     convergence = three_solid_meshes(_solid_refined(task, cycle, agenda)) if task.options.refines else ()
     agenda(RATING)
-    comparisons = (*compare_solid(task, cycle, summary, convergence, shafts), *start_comparisons(task, starts))
+    plastic = plastic_check(task, cycle, summary)
+    beside_guideline = () if plastic is None else plastic.comparisons(task.options.root_band / 100)
+    comparisons = (
+        *compare_solid(task, cycle, summary, convergence, shafts),
+        *start_comparisons(task, starts),
+        *beside_guideline,
+    )
     notices = (
+        *plastic_notices(task, plastic),
         *common_notices(task, cycle, summary),
         *_edge_notices(task, cycle, summary),
         *_unresolved_notches(task),
@@ -285,6 +301,7 @@ def check_solid(task: CheckTask, agenda: Agenda) -> SolidCheck:
         relief_starts=starts,
         shafts=shafts,
         losses=mesh_losses(task, cycle),
+        plastic=plastic,
     )
 
 

@@ -15,7 +15,7 @@ from gearcad.core.errors import GeometryError, ParameterError
 from gearcad.core.records import PerGear, Role
 from gearcad.geometry import Gear, GearPair, RackPair
 from gearcad.load import Load
-from gearcad.material import Material, Materials, of_both
+from gearcad.material import Material, Materials, TabledNumber, of_both
 from gearcad.mounting import Mounting, SupportCompliance
 from gearcad.rating.friction import MeshFriction, mesh_friction
 from gearcad.rating.load_factor_formulas import face_load_factor, helix_factors, root_face_load_factor, width_to_height
@@ -45,6 +45,8 @@ class CheckTask:
     body_load: BodyLoad | None = None
     face_load: FaceLoadSource | None = None
     shafts: MeshOnShafts | None = None
+    rated_material: Materials | None = None
+    """Materials of the rating, where `material` has the moduli of plastics at the temperature of their teeth."""
 
     @property
     def gear_pair(self) -> GearPair:
@@ -135,8 +137,9 @@ class CheckTask:
     @cached_property
     def strength_rating(self) -> StrengthRating:
         """The full rating. Raises what `rate_strength` raises."""
+        material = self.material if self.rated_material is None else self.rated_material
         return rate_strength(
-            self.pair, self.material, self.load, self.rating_options, body_load=self.body_load, face_load=self.face_load
+            self.pair, material, self.load, self.rating_options, body_load=self.body_load, face_load=self.face_load
         )
 
 
@@ -167,7 +170,24 @@ def check_task(
     )
     _require_meshing(task)
     _ = task.friction
-    return task
+    return _at_temperature(task)
+
+
+def _at_temperature(task: CheckTask) -> CheckTask:
+    """Return the task with the moduli of plastics at the temperature of their roots, where a table has them over it."""
+    if not any(isinstance(each.youngs_modulus, TabledNumber) for each in task.materials):
+        return task
+    plastic = task.strength_rating.plastic
+    found = None if plastic is None else plastic.temperatures
+
+    def warm(role: Role) -> Material:
+        material = task.materials.pick(role)
+        if plastic is None or found is None or not isinstance(material.youngs_modulus, TabledNumber):
+            return material
+        modulus = plastic.reading(role, "youngs_modulus", found.root).value
+        return material if modulus is None else replace(material, youngs_modulus=modulus)
+
+    return replace(task, material=PerGear.each(warm), rated_material=task.material)
 
 
 def _require_meshing(task: CheckTask) -> None:

@@ -96,7 +96,7 @@ class LoadedPairDeck:
 
     mesh: ElementMesh
     held: PerGear[Wholes]
-    material: Material
+    materials: PerGear[Material]
     torque: float
     flanks: Sequence[Flanks]
     contact_stiffness: float
@@ -123,7 +123,7 @@ class LoadedPairDeck:
             element = len(self.mesh.cells) + 1
             for shaft in self.shafts.values():
                 element = shaft.write_springs(file, element)
-            write_material(file, self.material, self.mesh.parts, self.width)
+            self._write_materials(file)
             for shaft in self.shafts.values():
                 shaft.write_equations(file, self.mesh.points)
             if Role.PINION not in self.shafts:
@@ -144,6 +144,16 @@ class LoadedPairDeck:
             write_held(file, role, nodes)
         for name in dict.fromkeys(name for each in self.flanks for name in (*each.slaves, each.master)):
             write_surface(file, name, self.mesh.sides[name])
+
+    def _write_materials(self, file: TextIO) -> None:
+        """Write one material of both gears, or where they differ in elasticity that of each."""
+        pinion, wheel = ((each.youngs_modulus, each.poisson_ratio) for each in self.materials)
+        if pinion == wheel:
+            write_material(file, self.materials.pinion, self.mesh.parts, self.width)
+            return
+        for role, material in self.materials.items():
+            parts = [part for part in self.mesh.parts if part.startswith(role.value)]
+            write_material(file, material, parts, self.width, f"{_MATERIAL}_{role.value}")
 
     def _write_supports(self, file: TextIO) -> None:
         file.write("*BOUNDARY\n")
@@ -201,12 +211,14 @@ def write_held(file: TextIO, role: Role, nodes: Wholes) -> None:
     write_node_set(file, HELD.format(role.value), np.unique(nodes))
 
 
-def write_material(file: TextIO, material: Material, parts: Iterable[str], width: float | None = None) -> None:
-    """Write the elastic material of all parts; `width` (mm) is the thickness of sections."""
+def write_material(
+    file: TextIO, material: Material, parts: Iterable[str], width: float | None = None, name: str = _MATERIAL
+) -> None:
+    """Write the elastic material of parts under a name; `width` (mm) is the thickness of sections."""
     elastic = f"{number(material.youngs_modulus)}, {number(material.poisson_ratio)}"
-    file.write(f"*MATERIAL, NAME={_MATERIAL}\n*ELASTIC\n{elastic}\n")
+    file.write(f"*MATERIAL, NAME={name}\n*ELASTIC\n{elastic}\n")
     for part in parts:
-        file.write(f"*SOLID SECTION, ELSET={part}, MATERIAL={_MATERIAL}\n")
+        file.write(f"*SOLID SECTION, ELSET={part}, MATERIAL={name}\n")
         if width is not None:
             file.write(f"{number(width)}\n")
 

@@ -14,7 +14,7 @@ import numpy as np
 from gearcad.check.task import CheckTask
 from gearcad.contact.shared.bodies import Cuts, Hold
 from gearcad.contact.shared.loaded import FAIR, Cycle, LoadedPosition, PairContact
-from gearcad.core.errors import GeometryError, ParameterError, format_number
+from gearcad.core.errors import GeometryError, ParameterError
 from gearcad.core.records import Floats, JsonObject, PerGear, Role, Wholes
 from gearcad.decks.calculix import (
     HELD,
@@ -93,19 +93,10 @@ _PITCH_ERRORS = ("pinion_pitch_error", "wheel_pitch_error")
 
 def require_treatable(task: CheckTask) -> None:
     """Raise ParameterError or GeometryError for supports, cuts and mountings that decks do not have."""
-    _require_one_elasticity(task)
     _require_rigid_hubs(task)
     for name in (*_UNTILTED, *_PITCH_ERRORS):
         if value := getattr(task.mounting, name):
             raise ParameterError(f"mounting.{name}", value, "must be 0 for a deck: it has the gears as they are drawn", "µm")
-
-
-def _require_one_elasticity(task: CheckTask) -> None:
-    pinion, wheel = task.materials
-    for name, unit in (("youngs_modulus", "MPa"), ("poisson_ratio", "")):
-        if (own := getattr(wheel, name)) != (other := getattr(pinion, name)):
-            permitted = f"must be that of the pinion, {format_number(other)}, for a deck, which has one elastic material"
-            raise ParameterError(f"wheel.material.{name}", own, permitted, unit)
 
 
 def _require_rigid_hubs(task: CheckTask) -> None:
@@ -143,7 +134,7 @@ which the pinion turns for it (rad), as beside the pitch point.
 """
 
 _STIFFNESS = 10.0
-"""Pressure by overlap, over modulus by edge: overlaps are then far below an edge, and iterations still end."""
+"""Pressure by overlap, over the lower modulus by edge: overlaps are then far below an edge, and iterations still end."""
 
 
 @dataclass(frozen=True)
@@ -263,10 +254,10 @@ class PairDecks(ABC):
         deck = LoadedPairDeck(
             mesh=mesh,
             held=PerGear.each(lambda role: held_nodes(mesh, f"{role.value}_")),
-            material=self.task.materials.pinion,
+            materials=self.task.materials,
             torque=self.task.torque,
             flanks=flanks,
-            contact_stiffness=_STIFFNESS * self.task.materials.pinion.youngs_modulus / edge,
+            contact_stiffness=_STIFFNESS * min(each.youngs_modulus for each in self.task.materials) / edge,
             width=self.width,
             shafts=self.shafts(mesh),
             sliding=sliding,

@@ -1,6 +1,7 @@
 """A material for each gear: in specs, tables, studies and Python, in ratings, and between finite elements."""
 
 import math
+import re
 import tomllib
 from dataclasses import replace
 from pathlib import Path
@@ -9,11 +10,12 @@ import pytest
 
 import gearcad
 from gearcad import BasicRack, Body, Gear, GearPair, Load, Material, ParameterError
+from gearcad.check.options import CheckOptions
 from gearcad.check.task import check_task
 from gearcad.contact.plane.pair import plane_pair
 from gearcad.core.errors import SpecError
 from gearcad.core.records import PerGear
-from gearcad.decks.pair import require_treatable
+from gearcad.decks.plane import PlaneDecks
 from gearcad.designs import PairDesign, PlanetaryDesign, design_from_tables, open_table, read_spec
 from gearcad.designs.spec_writers import pair_text
 from gearcad.designs.table import fault_alone, permitted_alone
@@ -235,17 +237,43 @@ def test_flanks_of_two_materials_run_in_by_the_mean() -> None:
         assert float(mixed) == pytest.approx(sum(map(float, single)) / 2, rel=1e-12)
 
 
-def test_decks_have_one_elasticity() -> None:
-    require_treatable(check_task(pair(), PerGear(Material(name="Eh MQ"), Material(name="V MQ")), Load(torque=100)))
-    with pytest.raises(ParameterError, match=r"wheel\.material\.youngs_modulus = 118000 MPa: must be that of the pinion"):
-        require_treatable(check_task(pair(), PerGear(Material(), CAST_IRON), Load(torque=100)))
+@pytest.mark.parametrize(
+    ("wheel", "expected"),
+    [
+        (Material(name="V MQ"), {"gears": ("2.060000000000e+05", ["pinion", "wheel"])}),
+        (
+            CAST_IRON,
+            {"gears_pinion": ("2.060000000000e+05", ["pinion"]), "gears_wheel": ("1.180000000000e+05", ["wheel"])},
+        ),
+    ],
+)
+def test_decks_have_the_elasticity_of_each_gear(
+    wheel: Material, expected: dict[str, tuple[str, list[str]]], tmp_path: Path
+) -> None:
+    """Sections are of the material of their gear; gears of one elasticity have one material."""
+    task = check_task(pair(), PerGear(Material(name="Eh MQ"), wheel), Load(torque=100), CheckOptions(body_teeth=3))
+    PlaneDecks(task).at(0.0).write(tmp_path / "pair.inp")
+    text = (tmp_path / "pair.inp").read_text()
+    moduli = dict(re.findall(r"\*MATERIAL, NAME=(\w+)\n\*ELASTIC\n(\S+), 3\.0+e-01\n", text))
+    sections = re.findall(r"\*SOLID SECTION, ELSET=(\w+), MATERIAL=(\w+)\n", text)
+    found: dict[str, tuple[str, list[str]]] = {name: (modulus, []) for name, modulus in moduli.items()}
+    for part, name in sections:
+        found[name][1].append(part.partition("_")[0])
+    assert found == expected
 
 
-def test_sections_of_two_materials_press_as_hertz_has_it() -> None:
-    model = plane_pair(pair(), PerGear(Material(), CAST_IRON))
-    found = model.solve(0.0, 100.0)
+@pytest.mark.parametrize(
+    ("steel", "mate", "torque"),
+    [
+        (Material(), CAST_IRON, 100.0),
+        (Material(youngs_modulus=210000.0), Material(group="plastic", youngs_modulus=4156.0, poisson_ratio=0.34), 3.0),  # type: ignore[arg-type]
+    ],
+)
+def test_sections_of_two_materials_press_as_hertz_has_it(steel: Material, mate: Material, torque: float) -> None:
+    model = plane_pair(pair(), PerGear(steel, mate))
+    found = model.solve(0.0, torque)
     (contact,), (force,), (pressures,) = found.pairs, found.forces, found.pressures
-    modulus = 1 / ((1 - 0.3**2) / 206000 + (1 - 0.3**2) / 118000)
+    modulus = 1 / sum((1 - each.poisson_ratio**2) / each.youngs_modulus for each in (steel, mate))
     assert pressures.max() == pytest.approx(peak_pressure(float(force), contact.radius, modulus), rel=HERTZ_AWAY)
 
 
