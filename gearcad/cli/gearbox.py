@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from gearcad.cli.job import aligned_columns
 from gearcad.cli.language import say
+from gearcad.dynamics.planetary.gearbox_modes import StateVibration
 from gearcad.jobs.gearbox import GearboxStudy
 from gearcad.planetary.gearbox_assembly import SetAssembly
 
@@ -34,6 +35,10 @@ def _lines(study: GearboxStudy) -> Iterator[str]:
     yield from aligned_columns(rows, left=(0, 4, 5))
     for name, assembly in gearbox.assemblies.items():
         yield from _assembly_lines(name, assembly)
+    for name, vibration in study.vibrations.items():
+        yield from _vibration_lines(name, vibration)
+    if "modes" in study.why_not:
+        yield f"no modes: {study.why_not['modes']}"
 
 
 def _assembly_lines(name: str, assembly: SetAssembly) -> Iterator[str]:
@@ -47,6 +52,26 @@ def _assembly_lines(name: str, assembly: SetAssembly) -> Iterator[str]:
     yield f"{name}: backlash {meshes} mm"
     if (least := assembly.least_clearance) is not None:
         yield f"{name}: tips that do not mesh are at least {least.distance:.4g} mm apart, {' and '.join(least.between)}"
+
+
+_MOST_FREQUENCIES = 5
+"""Natural frequencies above 0 of a state on the screen."""
+
+
+def _vibration_lines(name: str, vibration: StateVibration) -> Iterator[str]:
+    """Yield the first natural frequencies of a state, and the greatest dynamic forces of its meshes."""
+    above = [each for each in vibration.modes.families if each.frequency > 0]
+    told = ", ".join(
+        f"{each.frequency:.5g} {each.kind.value}" + (f" ({each.multiplicity})" if each.multiplicity > 1 else "")
+        for each in above[:_MOST_FREQUENCIES]
+    )
+    few = f"; first {_MOST_FREQUENCIES} of {len(above)}" if len(above) > _MOST_FREQUENCIES else ""
+    yield f"state {name}: natural frequencies {told} Hz{few}"
+    if vibration.response is not None:
+        mesh, (force, speed) = max(vibration.response.greatest.items(), key=lambda each: each[1][0])
+        if not force:
+            return  # the gearbox turns as a block
+        yield f"state {name}: dynamic force at most {force:.4g} N, of {mesh} at {speed:.5g} rpm"
 
 
 def _number(torque: float | None) -> str:

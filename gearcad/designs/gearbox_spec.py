@@ -12,19 +12,25 @@ from gearcad.designs.design import Described, Design, Where
 from gearcad.designs.keys import GEAR_FIELDS, OF_GEARBOXES, PARTS, SHARED, DesignKind, nearest_of
 from gearcad.designs.spec import AUTO, CLEAR, Given, Spec, entries
 from gearcad.geometry import Gear, GearPair
-from gearcad.planetary.gearbox import Gearbox, GearboxState
+from gearcad.planetary.gearbox import Gearbox, GearboxShaft, GearboxState
 from gearcad.planetary.gearbox_assembly import SetAssembly
-from gearcad.planetary.gearbox_sets import MemberSet, SetCentral, SetGear, SetGearing, SetPlanet
+from gearcad.planetary.gearbox_sets import MemberSet, SetCarrier, SetCentral, SetGear, SetGearing, SetPlanet
 
-_PERMITTED = ("name", "input", "output", "joined", "mesh_efficiency", *sorted(OF_GEARBOXES))
+_PERMITTED = ("name", "input", "output", "joined", "mesh_efficiency", "speed", "shaft", "inertia", *sorted(OF_GEARBOXES))
 _OF_STATE = ("held", "joined")
 _OF_CENTRAL, _OF_PLANET = ("teeth", "meshes"), ("name", "teeth", "meshes", "beside")
 
 _OF_SET = ("planets", "axial_position")
 """Keys of a set beside those that its gears share."""
 
-_OF_PLACES = ("axial_position", "clocking", "centre_distance", "mate_distance")
-"""Keys of a gear of a set beside its teeth; a central has the first."""
+_OF_BOTH = ("axial_position", "mass", "inertia", "mesh_stiffness", "mesh_error")
+_OF_CENTRALS = ("support_stiffness", "torsional_stiffness")
+_OF_PLANETS = ("clocking", "centre_distance", "mate_distance", "pin_stiffness")
+_OF_PLACES = (*_OF_BOTH, *_OF_CENTRALS, *_OF_PLANETS)
+"""Keys of a gear of a set beside its teeth: of any, of a sun or a ring, of a planet."""
+
+_OF_CARRIER = ("name", "mass", "inertia", "support_stiffness", "torsional_stiffness")
+_OF_SHAFT = ("name", "start", "end", "torsional_stiffness")
 
 _OF_GEARS = {*_OF_SET, *(field.partition(".")[0] for field in SHARED)}
 """Keys of a set by which its gears are known."""
@@ -55,7 +61,7 @@ class PlanetaryGearboxDesign(Design):
         main = tables["planetary"]
         _require_keys(main, "planetary", _PERMITTED, where)
         name = main.get("name", default_name)
-        given = {key: main[key] for key in ("mesh_efficiency",) if key in main}
+        given = {key: main[key] for key in ("mesh_efficiency", "speed") if key in main}
         sets = main.get("set", [])
         if not isinstance(sets, list):
             raise SpecError(f"{where('planetary.set')}: planetary.set: must be headed [[planetary.set]], once for each")
@@ -69,6 +75,8 @@ class PlanetaryGearboxDesign(Design):
             output=_text(main, "planetary", "output", where),
             joined=_groups(main.get("joined", []), "planetary.joined", where),
             states=tuple(_states(main.get("states", {}), where)),
+            shafts=tuple(_shafts(main.get("shaft", []), where)),
+            inertias=_inertias(main.get("inertia", {}), where),
             **given,
         )
         return _made(cls, "planetary", where, name=name, gearbox=gearbox)
@@ -123,10 +131,14 @@ def _set(content: Any, number: int, where: Where) -> MemberSet:
             raise SpecError(f"{where(own)}: {own}.meshes is missing: the planet that it meshes with", f"{own}.meshes")
         centrals.append(_made(SetCentral, own, where, name=central, teeth=each.get("teeth"), meshes=mate))
         tables[central] = GearTable(own, each)
-    carrier = content.get("carrier", "carrier")
+    carrier, of_carrier = content.get("carrier", "carrier"), {}
+    if isinstance(carrier, Mapping):
+        _require_keys(carrier, f"{key}.carrier", _OF_CARRIER if geared else ("name",), where)
+        of_carrier = {field: value for field, value in carrier.items() if field != "name"}
+        carrier = carrier.get("name", "carrier")
     found = _made(MemberSet, key, where, name=name, centrals=tuple(centrals), planets=tuple(planets), carrier=carrier)
     if geared:
-        found = SetReader(found, key, shared, tables, where).geared()
+        found = SetReader(found, key, shared, tables, of_carrier, where).geared()
         _made(SetAssembly(found).check, key, where, of=name)
     return found
 
@@ -146,6 +158,7 @@ class SetReader:
     key: str
     shared: Mapping[str, Any]
     tables: Mapping[str, GearTable]
+    carrier: Mapping[str, Any]
     where: Where
 
     def geared(self) -> MemberSet:
@@ -216,17 +229,22 @@ class SetReader:
         with spec.blame(name):
             gear = Gear(**inputs)
         table = self.tables[name]
-        permitted = _OF_PLACES if any(each.name == name for each in self.subject.planets) else _OF_PLACES[:1]
+        planet = any(each.name == name for each in self.subject.planets)
+        permitted = (*_OF_BOTH, *(_OF_PLANETS if planet else _OF_CENTRALS))
         given = {field: table.content[field] for field in _OF_PLACES if field in table.content}
         for field in given:
             if field not in permitted:
                 key = f"{table.key}.{field}"
-                raise SpecError(f"{self.where(key)}: {key}: unknown key here; it belongs to a planet", key)
+                raise SpecError(
+                    f"{self.where(key)}: {key}: unknown key here; it belongs to {'a sun or a ring' if planet else 'a planet'}",
+                    key,
+                )
         return _made(SetGear, table.key, self.where, gear=gear, **given)
 
     def _with(self, gears: Mapping[str, SetGear]) -> MemberSet:
         given = {"planets": None} | {field: self.shared[field] for field in _OF_SET if field in self.shared}
-        gearing = _made(SetGearing, self.key, self.where, gears=dict(gears), **given)
+        carrier = _made(SetCarrier, f"{self.key}.carrier", self.where, **self.carrier)
+        gearing = _made(SetGearing, self.key, self.where, gears=dict(gears), carrier=carrier, **given)
         return replace(self.subject, gearing=gearing)
 
 
@@ -239,6 +257,25 @@ def _states(content: Any, where: Where) -> Iterator[GearboxState]:
         _require_keys(each, own, _OF_STATE, where)
         (held,) = _groups([each.get("held", [])], f"{own}.held", where)
         yield GearboxState(name=name, held=held, joined=_groups(each.get("joined", []), f"{own}.joined", where))
+
+
+def _shafts(content: Any, where: Where) -> Iterator[GearboxShaft]:
+    if not isinstance(content, list):
+        raise SpecError(f"{where('planetary.shaft')}: planetary.shaft: must be headed [[planetary.shaft]], once for each")
+    for number, each in enumerate(content):
+        key = f"planetary.shaft[{number}]"
+        _require_keys(each, key, _OF_SHAFT, where)
+        ends = {end: _text(each, key, end, where) for end in ("start", "end")}
+        given = {"name": each.get("name", f"shaft_{number + 1}"), "torsional_stiffness": each.get("torsional_stiffness")}
+        yield _made(GearboxShaft, key, where, **ends, **given)
+
+
+def _inertias(content: Any, where: Where) -> dict[str, float]:
+    """Return the inertias (kg·m²) by the names of members and shafts."""
+    key = "planetary.inertia"
+    if not isinstance(content, Mapping):
+        raise SpecError(f"{where(key)}: {key}: must be a table of inertias, such as input = 0.02", key)
+    return dict(content)
 
 
 def _groups(value: Any, key: str, where: Where) -> tuple[tuple[str, ...], ...]:

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
+from gearcad.core.errors import ParameterError
 from gearcad.core.records import JsonObject, Notice
 from gearcad.core.runtime import Progress, one_thread
 from gearcad.designs.design import Design
 from gearcad.designs.gearbox_spec import PlanetaryGearboxDesign
 from gearcad.designs.keys import DesignKind
+from gearcad.dynamics.planetary.gearbox_modes import StateVibration, state_vibration
 from gearcad.jobs.job import Job
 from gearcad.planetary.gearbox import Gearbox, StateResult
 from gearcad.planetary.gearbox_assembly import GearboxPhases
@@ -24,6 +26,9 @@ class GearboxStudy:
     gearbox: Gearbox
     states: Mapping[str, StateResult]
     notices: tuple[Notice, ...] = ()
+    vibrations: Mapping[str, StateVibration] = field(default_factory=dict)
+    why_not: Mapping[str, str] = field(default_factory=dict)
+    """Reasons why something is missing, such as "modes"."""
 
     @cached_property
     def phases(self) -> dict[str, dict[str, GearboxPhases | None]]:
@@ -45,7 +50,8 @@ class PlanetaryGearbox(Job[PlanetaryGearboxDesign, GearboxStudy]):
         accepted = self.accepted(design, progress)
         gearbox = accepted.gearbox
         states = {state.name: gearbox.solve(state) for state in gearbox.states}
-        return GearboxStudy(gearbox=gearbox, states=states, notices=accepted.notices)
+        vibrations, why_not = _vibrations(gearbox, states)
+        return GearboxStudy(gearbox=gearbox, states=states, notices=accepted.notices, vibrations=vibrations, why_not=why_not)
 
     def document(self, result: GearboxStudy) -> JsonObject:
         """Return what each state does, by its name."""
@@ -53,6 +59,11 @@ class PlanetaryGearbox(Job[PlanetaryGearboxDesign, GearboxStudy]):
         states = {name: each.to_dict() for name, each in result.states.items()}
         for name, phases in result.phases.items():
             states[name]["phases"] = {mesh: None if each is None else each.to_dict() for mesh, each in phases.items()}
+        for name, vibration in result.vibrations.items():
+            states[name]["vibration"] = {
+                "modes": vibration.modes.to_dict(),
+                "response": None if vibration.response is None else vibration.response.to_dict(),
+            }
         assembly = {name: each.to_dict() for name, each in gearbox.assemblies.items()}
         for name, bottom in gearbox.bottoms.items():
             assembly[name]["axial_position"] = bottom
@@ -65,7 +76,18 @@ class PlanetaryGearbox(Job[PlanetaryGearboxDesign, GearboxStudy]):
             "mesh_efficiency": gearbox.mesh_efficiency,
             "states": states,
             "assembly": assembly or None,
+            "why_not": dict(result.why_not),
         }
 
     def notices(self, result: GearboxStudy) -> Sequence[Notice]:
         return result.notices
+
+
+def _vibrations(gearbox: Gearbox, states: Mapping[str, StateResult]) -> tuple[dict[str, StateVibration], dict[str, str]]:
+    """Return modes and vibration of each state, or why there are none."""
+    if not gearbox.assemblies:
+        return {}, {"assembly": "of the sets only teeth are known: give planets, normal_module and face_width"}
+    try:
+        return {name: state_vibration(gearbox, each) for name, each in states.items()}, {}
+    except ParameterError as error:
+        return {}, {"modes": str(error)}

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -27,6 +27,24 @@ _GAP = 5.0
 
 _MOST_TRIES = 64
 """Tries to find the senses in which power rolls through the meshes: losses change them where power nearly balances."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class GearboxShaft:
+    """A shaft that twists between two members or shafts, `start` and `end`, by its `torsional_stiffness` (N·m/rad).
+
+    Both ends turn alike in the states. Raises ParameterError.
+    """
+
+    name: str
+    start: str
+    end: str
+    torsional_stiffness: float
+
+    def __post_init__(self) -> None:
+        require_number("torsional_stiffness", self.torsional_stiffness, "N·m/rad", above=0, at_most=1e12)
+        if self.start == self.end:
+            raise ParameterError("end", self.end, "must be another member or shaft than the start")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,6 +75,9 @@ class StateResult:
     mesh_torques: Mapping[str, float | None]
     """Torques that each mesh puts on its second gear, on all its planets together, by the nominal ratio of its teeth."""
 
+    mesh_signs: Mapping[str, int]
+    """Signs of these torques; where the balance does not determine them, those of the least torques that balance."""
+
     planet_speeds: Mapping[str, float]
     """Speeds of the planets by the names of their bodies."""
 
@@ -81,7 +102,8 @@ class Gearbox:
     """Planetary sets with members `joined` for good, `input` and `output`, and the states of the gearbox.
 
     A name with a dot is a member of a set, such as "set1.sun"; others are shafts. `mesh_efficiency` is that of each mesh with
-    its carrier at rest. Raises ParameterError.
+    its carrier at rest. `shafts` twist; `inertias` (kg·m²) are those of shafts, and what members have beside their gears.
+    `speed` (rpm) is the highest of the input, up to which errors of meshes shake it. Raises ParameterError.
     """
 
     name: str
@@ -91,9 +113,14 @@ class Gearbox:
     states: tuple[GearboxState, ...]
     joined: tuple[tuple[str, ...], ...] = ()
     mesh_efficiency: float = 1.0
+    shafts: tuple[GearboxShaft, ...] = ()
+    inertias: Mapping[str, float] = field(default_factory=dict)
+    speed: float | None = None
 
     def __post_init__(self) -> None:
         require_number("mesh_efficiency", self.mesh_efficiency, above=0, at_most=1)
+        if self.speed is not None:
+            require_number("speed", self.speed, "rpm", above=0, at_most=1e6)
         if not self.sets:
             raise ParameterError("set", None, "must be given: [[planetary.set]], once for each")
         if not self.states:
@@ -101,6 +128,10 @@ class Gearbox:
         if len({each.name for each in self.sets}) < len(self.sets):
             raise ParameterError("set", [each.name for each in self.sets], "must have a name of its own each")
         named = [("input", self.input), ("output", self.output), *(("joined", name) for each in self.joined for name in each)]
+        named += [(f"shaft.{each.name}", name) for each in self.shafts for name in (each.start, each.end)]
+        named += [("inertia", name) for name in self.inertias]
+        for name, inertia in self.inertias.items():
+            require_number(f"inertia.{name}", inertia, "kg·m²", above=0, at_most=1e9)
         for state in self.states:
             key = f"states.{state.name}"
             named += [(f"{key}.held", name) for name in state.held]
@@ -202,6 +233,9 @@ class Gearbox:
             "output": self.output,
             "mesh_efficiency": self.mesh_efficiency,
             "joined": [list(group) for group in self.joined],
+            "speed": self.speed,
+            "inertia": dict(self.inertias),
+            "shafts": {each.name: asdict(each) for each in self.shafts},
             "sets": {each.name: each.to_dict() for each in self.sets},
             "states": {
                 each.name: {"held": list(each.held), "joined": [list(group) for group in each.joined]} for each in self.states
@@ -236,10 +270,12 @@ class _Bodies:
         self.gearbox, self.state = gearbox, state
         bodies_of = (f"{each.name}.{each.body_of(planet.name)}" for each in gearbox.sets for planet in each.planets)
         self.planets = tuple(dict.fromkeys(bodies_of))
-        shafts = {name for group in (*gearbox.joined, *state.joined, state.held) for name in group}
+        twisting = [(each.start, each.end) for each in gearbox.shafts]
+        groups = (*gearbox.joined, *twisting, *state.joined, state.held, tuple(gearbox.inertias))
+        shafts = {name for group in groups for name in group}
         self.members = tuple(dict.fromkeys((*gearbox.members, gearbox.input, gearbox.output, *sorted(shafts))))
         of = {name: name for name in (*self.members, *sorted(self.planets))}
-        for group in gearbox.joined:
+        for group in (*gearbox.joined, *twisting):
             roots = {_root(of, name) for name in group}
             for root in roots:
                 of[root] = min(roots)
@@ -293,7 +329,7 @@ class _Bodies:
         leaving = speeds[self.at[gearbox.output]]
         if leaving == 0:
             raise GeometryError(self.key, self.words, "must let the output turn")
-        rolling, torques = self._torques(speeds)
+        rolling, torques, signs = self._torques(speeds)
         on_output, *rest = torques[len(gearbox.meshes) :]
         brakes, on_clutches = rest[: len(self.state.held)], rest[len(self.state.held) :]
         if on_output is None or not on_output:
@@ -307,11 +343,14 @@ class _Bodies:
             clutches={f"{first}-{second}": each for (first, second), each in zip(self.clutches, on_clutches, strict=True)},
             rolling={mesh.name: each for mesh, each in zip(gearbox.meshes, rolling, strict=True)},
             mesh_torques={mesh.name: _on_second(mesh, each) for mesh, each in zip(gearbox.meshes, torques, strict=False)},
+            mesh_signs={
+                mesh.name: sign if mesh.first_teeth > 0 else -sign for mesh, sign in zip(gearbox.meshes, signs, strict=True)
+            },
             planet_speeds={name: float(speeds[self.at[name]]) for name in self.planets},
         )
 
-    def _torques(self, speeds: Floats) -> tuple[list[float | None], list[float | None]]:
-        """Return the power that enters each mesh, and the torques of meshes, output, brakes and clutches.
+    def _torques(self, speeds: Floats) -> tuple[list[float | None], list[float | None], list[int]]:
+        """Return the power that enters each mesh, the torques of meshes, output, brakes and clutches, and signs of the meshes'.
 
         Raises SolverError where no senses of the rolling power agree with themselves, or the output would have to drive.
         """
@@ -328,7 +367,7 @@ class _Bodies:
                 told = [float(each) if place in known else None for place, each in enumerate(torques)]
                 into = np.abs(rolling) / self.gearbox.mesh_efficiency ** np.maximum(found, 0.0)
                 powers = [float(each) if place in known or not each else None for place, each in enumerate(into)]
-                return powers, told
+                return powers, told, np.where(torques[: len(meshes)] < 0, -1, 1).tolist()
             senses = found
         raise SolverError(
             f"{self.key}: no torque at {self.gearbox.output} is turned by {self.gearbox.input} at a mesh efficiency of "

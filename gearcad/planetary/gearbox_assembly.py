@@ -255,6 +255,10 @@ class SetAssembly:
         angle = axis.angle + math.tau * number / self.gearing.planets
         return complex(axis.radius * math.cos(angle), axis.radius * math.sin(angle))
 
+    def place_of(self, body: str, number: int) -> complex:
+        """Return where the axis of planet `number` (from 0) of a body stands (mm), with the carrier at angle 0."""
+        return self._place(body, number)
+
     def _towards(self, mesh: PartMesh, number: int) -> tuple[float, float]:
         """Return the directions (rad) from the axes of both gears to where they mesh."""
         first, second = (self._place(name, number) for name in mesh)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass, field, fields
 from typing import NamedTuple
 
 from gearcad.core.errors import ParameterError, require_number, require_whole
@@ -50,7 +50,13 @@ class SetGear:
 
     `clocking` (degrees) turns tooth 0 of a planet beside another against that one's, counter-clockwise. `centre_distance` (mm)
     is that of a planet's axis from the axis of the set, None for the one at which its first central meshes without backlash;
-    `mate_distance` (mm) that from the planet with which it meshes, None likewise. Raises ParameterError.
+    `mate_distance` (mm) that from the planet with which it meshes, None likewise.
+
+    For vibration: `mass` (kg) and `inertia` (kg·m²), None for those of its solid; of a sun or a ring `support_stiffness` (N/µm)
+    of its bearing, None holds it and 0 lets it float, and `torsional_stiffness` (N·m/rad) of what holds or drives it;
+    `mesh_stiffness` (N/µm) is the mean of its mesh with one planet, None for that of ISO 6336-1, and `mesh_error` (µm) the
+    amplitude of its transmission error at the tooth frequency; `pin_stiffness` (N/µm) of a planet, None is rigid. Raises
+    ParameterError.
     """
 
     gear: Gear
@@ -58,6 +64,13 @@ class SetGear:
     clocking: float = 0.0
     centre_distance: float | None = None
     mate_distance: float | None = None
+    mass: float | None = None
+    inertia: float | None = None
+    support_stiffness: float | None = None
+    torsional_stiffness: float | None = None
+    mesh_stiffness: float | None = None
+    mesh_error: float = 0.0
+    pin_stiffness: float | None = None
 
     def __post_init__(self) -> None:
         require_number("axial_position", self.axial_position, "mm", at_least=-1e5, at_most=1e5)
@@ -65,11 +78,49 @@ class SetGear:
         for name in ("centre_distance", "mate_distance"):
             if (value := getattr(self, name)) is not None:
                 require_number(name, value, "mm", above=0, at_most=1e5)
+        require_number("mesh_error", self.mesh_error, "µm", at_least=0, at_most=1e3)
+        _check_dynamics(self, "mass", "inertia", "mesh_stiffness", "pin_stiffness")
+        _check_dynamics(self, "support_stiffness", "torsional_stiffness", may_vanish=True)
 
     @property
     def top(self) -> float:
         """Height of the upper end of its teeth (mm)."""
         return self.axial_position + self.gear.face_width
+
+
+@dataclass(frozen=True, kw_only=True)
+class SetCarrier:
+    """Mass (kg) and inertia (kg·m²) of the carrier of a set, without which there are no modes, and stiffnesses as of a gear.
+
+    Raises ParameterError.
+    """
+
+    mass: float | None = None
+    inertia: float | None = None
+    support_stiffness: float | None = None
+    torsional_stiffness: float | None = None
+
+    def __post_init__(self) -> None:
+        _check_dynamics(self, "mass", "inertia")
+        _check_dynamics(self, "support_stiffness", "torsional_stiffness", may_vanish=True)
+
+
+_UNITS = {
+    "mass": "kg",
+    "inertia": "kg·m²",
+    "support_stiffness": "N/µm",
+    "torsional_stiffness": "N·m/rad",
+    "mesh_stiffness": "N/µm",
+    "pin_stiffness": "N/µm",
+}
+
+
+def _check_dynamics(own: object, *names: str, may_vanish: bool = False) -> None:
+    """Raise ParameterError unless values are not given, or above 0 (or 0, if that may be)."""
+    for name in names:
+        if (value := getattr(own, name)) is not None:
+            least = {"at_least": 0.0} if may_vanish else {"above": 0.0}
+            require_number(name, value, _UNITS[name], at_most=1e12, **least)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -82,6 +133,7 @@ class SetGearing:
     planets: int
     gears: Mapping[str, SetGear]
     axial_position: float | None = None
+    carrier: SetCarrier = field(default_factory=SetCarrier)
 
     def __post_init__(self) -> None:
         require_whole("planets", self.planets, at_least=1, at_most=MOST_PLANETS)
@@ -142,7 +194,15 @@ class MemberSet:
             for each in self.planets
         }
         centrals = {each.name: {"teeth": each.teeth, "meshes": each.meshes} for each in self.centrals}
-        return {"centrals": centrals, "planets": planets, "carrier": self.carrier}
+        found: JsonObject = {"centrals": centrals, "planets": planets, "carrier": self.carrier}
+        if self.gearing is not None:
+            gears = {
+                name: {each.name: getattr(own, each.name) for each in fields(own) if each.name != "gear"}
+                for name, own in self.gearing.gears.items()
+            }
+            about = {"planets": self.gearing.planets, "axial_position": self.gearing.axial_position}
+            found["gearing"] = {**about, "carrier": asdict(self.gearing.carrier), "gears": gears}
+        return found
 
     def body_of(self, planet: str) -> str:
         """Return the name of the planet on whose body a planet sits."""

@@ -124,15 +124,15 @@ def eigenspaces(model: MassSprings) -> Iterator[Eigenspace]:
     """Yield neighbouring frequencies together, separated by kind, then by frequency again."""
     omega, modes = model.diagonal(np.eye(len(model.lower)))
     omega[omega <= _RIGID * omega[-1]] = 0.0
-    for near in _runs(omega, _NEAR):
+    for near in runs(omega, _NEAR):
         for kind, space in _kinds(model, modes[:, near]):
             own, turned = model.diagonal(space) if omega[near[-1]] else (np.zeros(space.shape[1]), space)
-            for same in _runs(own, _EQUAL):
+            for same in runs(own, _EQUAL):
                 among = np.full(len(same), own[same].mean())
                 yield Eigenspace(kind, among, _told_apart(model, turned[:, same], kind))
 
 
-def _runs(omega: Floats, near: float) -> list[Indices]:
+def runs(omega: Floats, near: float) -> list[Indices]:
     """Return the places of rising frequencies (n,) in runs without a gap."""
     gaps = np.flatnonzero(np.diff(omega) > near * omega[1:]) + 1
     return np.split(np.arange(len(omega)), gaps)
@@ -146,7 +146,14 @@ def _kinds(model: MassSprings, modes: Floats) -> list[tuple[ModeKind, Floats]]:
 
     Modes of one frequency come in any mixture.
     """
-    travel, turn = _travel(model, modes), _turn(model, modes)
+    return split_kinds(_travel(model, modes), _turn(model, modes), modes)
+
+
+def split_kinds(travel: Floats, turn: Floats, modes: Floats) -> list[tuple[ModeKind, Floats]]:
+    """Return the space of some modes (n, g), split into those of each kind.
+
+    `travel` and `turn` (r, g) are the motions of the members in them.
+    """
     at_place, unturned, still = _unmoved(travel), _unmoved(turn), _unmoved(np.vstack([travel, turn]))
     rotational, translational = _without(at_place, still), _without(unturned, still)
     parts = np.hstack([rotational, translational, still])
