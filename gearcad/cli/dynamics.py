@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import shlex
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -104,11 +106,12 @@ _MOST_ORDERS = 4
 @click.option(
     "--vary", "variations", multiple=True, metavar="KEY=VALUES", help="Another value, or several side by side; repeatable."
 )
+@click.option("--wav", is_flag=True, help="Write dynamics.wav too: what one would hear of the run in time or of one speed.")
 @output_option
 @json_option
 @quiet_option
 @debug_option
-def dynamics(spec: Path, variations: tuple[str, ...], output: Path | None, as_json: bool, quiet: bool) -> None:
+def dynamics(spec: Path, variations: tuple[str, ...], wav: bool, output: Path | None, as_json: bool, quiet: bool) -> None:
     """Dynamics of the pair of SPEC, under its [load], or of its [train]: what the stiffness of the teeth does to the machine.
 
     A train has its natural frequencies and modes, and the overload of its meshes and shafts over speed, for shafts that are
@@ -119,18 +122,22 @@ def dynamics(spec: Path, variations: tuple[str, ...], output: Path | None, as_js
     (the arrays) and a CSV for every chart and table; of a train whose meshes are those of pairs also a spec of each pair under
     its load.
 
+    --wav writes the forces between the flanks as a sound, without what is below 20 Hz: of the run in time, where there is one,
+    else 3 s at the speed of the course. Screen and dynamics.json (sound) tell the greatest value, by which it is normalised.
+
     \b
     --vary train.model=exact                       this value in place of the spec's
     --vary "shaft.*.damping_ratio=0.01,0.05,0.1"   all over each other in one chart and table
     """
     if variations:
         job, design = _varied(spec, variations)
+        job = replace(job, wav=wav)
     else:
         from gearcad.designs import read_spec
         from gearcad.jobs.dynamics import Dynamics
 
-        job, design = Dynamics(), read_spec(spec)
-    study = perform_on(job, design, output, _show, as_json=as_json, quiet=quiet)
+        job, design = Dynamics(wav=wav), read_spec(spec)
+    study = perform_on(job, design, output, partial(_show, wav=wav), as_json=as_json, quiet=quiet)
     if not (quiet or as_json):
         _echo_next(study, output)
 
@@ -154,8 +161,10 @@ def _echo_next(study: Study, output: Path | None) -> None:
         say(f"Next: gearcad check {files[0]}", err=True)
 
 
-def _show(_name: str, study: Study) -> None:
-    say("\n".join(_lines(study)))
+def _show(_name: str, study: Study, *, wav: bool = False) -> None:
+    from gearcad.dynamics.sound import sound_of
+
+    say("\n".join([*_lines(study), *([f"sound: {sound_of(study).words}"] if wav else [])]))
     echo_warnings(study.notices)
 
 

@@ -4,6 +4,8 @@ from .pair_result import ContactStudy as ContactStudy
 from .pair_result import PairStudy as PairStudy
 from .pair_study import study_contact as study_contact
 from .pair_study import study_pair as study_pair
+from .sound import Sound as Sound
+from .sound import sound_of as sound_of
 from .train_result import ModalStudy as ModalStudy
 from .train_result import TrainStudy as TrainStudy
 from .train_study import study_modes as study_modes

@@ -27,6 +27,7 @@ from gearcad.dynamics.level_verdict import LevelStudy, finest_first
 from gearcad.dynamics.options import DynamicsOptions, PairModel, idle_without_levels
 from gearcad.dynamics.pair_result import ContactStudy, PairStudy
 from gearcad.dynamics.pair_study import study_contact, study_pair
+from gearcad.dynamics.sound import sound_of
 from gearcad.dynamics.train_result import ModalStudy, TrainStudy
 from gearcad.dynamics.train_study import expected_train, study_modes, study_torques, study_train, study_undamped
 from gearcad.dynamics.trains.steady_response import UndampedError
@@ -169,12 +170,13 @@ _TABLES = (
 
 @dataclass(frozen=True, kw_only=True)
 class Dynamics(ReportedJob[PairDesign | TrainDesign, Study]):
-    """The study for which [dynamics] of a design asks."""
+    """The study for which [dynamics] of a design asks; with `wav` its sound as well, in dynamics.wav."""
 
+    wav: bool = False
     verb = "dynamics"
     accepts = (DesignKind.PAIR, DesignKind.TRAIN)
     why = "a single gear has no mesh"
-    sometimes = tuple(file_name("dynamics", name) for name in _TABLES)
+    sometimes = ("dynamics.wav", *(file_name("dynamics", name) for name in _TABLES))
 
     @one_thread()
     def run(self, design: Design, progress: Progress | None = None) -> Study:
@@ -197,7 +199,8 @@ class Dynamics(ReportedJob[PairDesign | TrainDesign, Study]):
 
     def document(self, result: Study) -> JsonObject:
         """Return the content of dynamics.json: everything but the long arrays."""
-        return with_assumed({"kind": "dynamics", "name": result.name, "gearcad": __version__, **result.to_dict()})
+        sound = {"sound": sound_of(result).to_dict()} if self.wav else {}
+        return with_assumed({"kind": "dynamics", "name": result.name, "gearcad": __version__, **result.to_dict(), **sound})
 
     def notices(self, result: Study) -> Sequence[Notice]:
         return result.notices
@@ -212,6 +215,7 @@ class Dynamics(ReportedJob[PairDesign | TrainDesign, Study]):
             **({"dynamics.html": partial(_write_report, result, self.head)} if self.report else {}),
             "dynamics.json": partial(self.write_document, result),
             "dynamics.npz": partial(_write_arrays, result),
+            **({"dynamics.wav": sound_of(result).write} if self.wav else {}),
             **table_files(self.verb, result.tables()),
             **{name: partial(_write_text, text) for name, text in specs_of(result).items()},
         }
