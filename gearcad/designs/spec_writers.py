@@ -37,6 +37,7 @@ from gearcad.dynamics.planetary.planetary_strength import ALTERNATING
 from gearcad.dynamics.train_result import TrainStudy
 from gearcad.dynamics.trains.train import EngagedMesh, Train
 from gearcad.geometry import ISO53_A, Gear, GearPair
+from gearcad.geometry.splined_bore import SplinedBore
 from gearcad.geometry.tool_shelf import ToolName
 from gearcad.geometry.tool_tables import PARTS as TOOL_PARTS
 from gearcad.identify.candidates import Candidate as GearCandidate
@@ -177,6 +178,8 @@ def _default(owner: Any, name: str) -> Any:
 def _toml(value: Any) -> str:
     if isinstance(value, Enum):
         value = value.value
+    if isinstance(value, SplinedBore):
+        value = value.designation
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, tuple | list):

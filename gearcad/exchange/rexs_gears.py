@@ -59,10 +59,7 @@ class RexsGear:
     def keys(self) -> dict[str, Any]:
         """Return the keys under their dotted names."""
         sign = -1 if self.internal else 1
-        teeth = self.gear.whole("number_of_teeth")
-        if teeth is None:
-            self.gear.needed("number_of_teeth")
-        assert teeth is not None
+        teeth = self.gear.needed_whole("number_of_teeth")
         keys: dict[str, Any] = {"name": self.gear.name or "gear", "teeth": sign * abs(teeth)}
         self.gear.needed("normal_module"), self.gear.needed("face_width")
         keys |= values_of(self.gear, OF_GEAR)
@@ -126,7 +123,7 @@ class RexsGear:
         if step == "premachining":
             self._premachining(keys, tool, settings)
         elif step == "cutter":
-            keys["cutter.teeth"] = tool.whole("number_of_teeth")
+            keys["cutter.teeth"] = tool.needed_whole("number_of_teeth")
             keys |= values_of(tool, OF_CUTTER)
             keys.setdefault("cutter.profile_shift", 0.0)
             if tool.text(STEP) is None:
@@ -147,7 +144,7 @@ class RexsGear:
         if settings is not None:
             found |= values_of(settings, OF_SETTINGS)
         if tool.kind == "cutter_wheel_tool":
-            found["premachining.cutter_teeth"] = tool.whole("number_of_teeth")
+            found["premachining.cutter_teeth"] = tool.needed_whole("number_of_teeth")
             found["premachining.cutter_profile_shift"] = tool.float_of("addendum_modification_coefficient") or 0.0
             for key in ("tool_pressure_angle", "tool_module"):
                 found.pop(f"premachining.{key}", None)

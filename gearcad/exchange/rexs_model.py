@@ -1,7 +1,4 @@
-"""RexsModel: components with attributes and the relations between them, written as the XML of REXS and read back.
-
-A file is read without document types and entities, so that it can neither grow in memory nor ask for other files.
-"""
+"""RexsModel: components with attributes and the relations between them, written as the XML of REXS and read back."""
 
 from __future__ import annotations
 
@@ -15,21 +12,17 @@ from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, NamedTuple, NoReturn
-from xml.parsers import expat
 from xml.sax.saxutils import escape, quoteattr
 
 from gearcad.core.errors import SpecError, shown, shown_path
 from gearcad.core.output import file_bytes, source_date
 from gearcad.exchange.rexs_attributes import CUSTOM, READ_VERSIONS, UNITS, VERSION, custom_id, same_unit
+from gearcad.exchange.xml_tree import DEEPEST, XmlElement, xml_tree
 from gearcad.version import __version__
 
 RexsValue = float | int | bool | str | tuple[float, ...]
 """Value of an attribute; a tuple is an array."""
 
-_DEEPEST = 12
-"""Elements inside each other: those of REXS go six deep."""
-
-_MOST_ELEMENTS = 400_000
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?", re.ASCII)
 _FLAGS = {"true": True, "false": False}
 
@@ -83,6 +76,13 @@ class RexsComponent:
             self.fault(attribute, f" = {found:g}: must be a whole number")
         return None if found is None else int(found)
 
+    def needed_whole(self, attribute: str) -> int:
+        """Return a whole number that must be there. Raises SpecError."""
+        self.needed(attribute)
+        found = self.whole(attribute)
+        assert found is not None
+        return found
+
     def flag(self, attribute: str) -> bool | None:
         """Return true or false, or None. Raises SpecError."""
         written = self.written.get(attribute)
@@ -112,15 +112,15 @@ class RexsComponent:
             if (text := self.text(custom_id(key))) is None:
                 continue
             try:
-                found[key] = json.loads(text)
+                found[key] = _required_plain(json.loads(text))
             except (ValueError, RecursionError):
                 self.fault(custom_id(key), f" = {shown(text, 40)}: must be a value in JSON")
         return found
 
-    def list_of(self, attribute: str) -> list[Any]:
-        """Return a list that is kept as JSON; empty where there is none. Raises SpecError."""
+    def list_of(self, attribute: str) -> list[str]:
+        """Return a list of names that is kept as JSON; empty where there is none. Raises SpecError."""
         found = self.custom([attribute.removeprefix(CUSTOM)]).values()
-        return next((each for each in found if isinstance(each, list)), [])
+        return [each for kept in found if isinstance(kept, list) for each in kept if isinstance(each, str)]
 
     def _float(self, attribute: str, text: str) -> float:
         if not _NUMBER.fullmatch(text) or not math.isfinite(number := float(text)):
@@ -131,6 +131,18 @@ class RexsComponent:
         unit = UNITS.get(attribute)
         if unit is not None and not same_unit(written.unit, unit):
             self.fault(attribute, f": its unit is {shown(written.unit, 40)}, must be {unit}")
+
+
+def _required_plain(value: Any, depth: int = 0) -> Any:
+    """Return a value that a key of a spec may have: a text, a number, true, false, or lists of these. Raises ValueError."""
+    if isinstance(value, str):
+        value.encode("utf-8")  # no half of a pair of surrogates, which no file can hold
+    elif isinstance(value, list) and depth < DEEPEST:
+        for each in value:
+            _required_plain(each, depth + 1)
+    elif not isinstance(value, int | float):
+        raise ValueError(value)
+    return value
 
 
 class RexsRelation(NamedTuple):
@@ -239,79 +251,6 @@ def _written(value: RexsValue) -> str:
     return repr(float(value)) if isinstance(value, float) else repr(int(value))
 
 
-class _XmlElement:
-    """An element of XML: its name without a namespace, its attributes, its children and its text."""
-
-    __slots__ = ("attributes", "children", "name", "parts")
-
-    def __init__(self, name: str, attributes: dict[str, str]) -> None:
-        self.name, self.attributes = name, attributes
-        self.children: list[_XmlElement] = []
-        self.parts: list[str] = []
-
-    @property
-    def text(self) -> str:
-        """Text without the spaces around it."""
-        return "".join(self.parts).strip()
-
-    def all(self, name: str) -> Iterator[_XmlElement]:
-        """Yield the children of a name."""
-        return (each for each in self.children if each.name == name)
-
-
-class _TreeReader:
-    """Handlers of the parser: they make a tree of elements, and refuse what REXS does not have."""
-
-    def __init__(self, file: str) -> None:
-        self.file, self.count = file, 0
-        self.root: _XmlElement | None = None
-        self.open: list[_XmlElement] = []
-
-    def begin(self, name: str, attributes: dict[str, str]) -> None:
-        """Begin an element."""
-        self.count += 1
-        if self.count > _MOST_ELEMENTS or len(self.open) >= _DEEPEST:
-            permitted = f"at most {_MOST_ELEMENTS:,} elements, {_DEEPEST} of them inside each other, are read"
-            raise SpecError(f"{self.file}: is too large or too deep: {permitted}")
-        element = _XmlElement(name.rpartition("}")[2], attributes)
-        if self.open:
-            self.open[-1].children.append(element)
-        else:
-            self.root = element
-        self.open.append(element)
-
-    def end(self, _name: str) -> None:
-        """End the innermost element."""
-        self.open.pop()
-
-    def characters(self, text: str) -> None:
-        """Add text to the innermost element."""
-        self.open[-1].parts.append(text)
-
-    def refuse(self, *_declared: object) -> None:
-        """Refuse a document type, with which entities come."""
-        raise SpecError(f"{self.file}: has a document type or entities, which files of REXS do not have: take them out")
-
-
-def _tree(content: bytes, file: str) -> _XmlElement:
-    """Return the tree of an XML text. Raises SpecError."""
-    reader, parser = _TreeReader(file), expat.ParserCreate(namespace_separator="}")
-    parser.StartElementHandler, parser.EndElementHandler = reader.begin, reader.end
-    parser.CharacterDataHandler = reader.characters
-    parser.StartDoctypeDeclHandler = parser.EntityDeclHandler = reader.refuse
-    try:
-        parser.Parse(content, True)
-    except expat.ExpatError as error:
-        why = expat.errors.messages.get(error.code, "syntax error")
-        raise SpecError(f"{file}, line {error.lineno}: is no XML that can be read ({why})") from error
-    except (ValueError, LookupError) as error:
-        if isinstance(error, SpecError):
-            raise
-        raise SpecError(f"{file}: its encoding cannot be read: save it as UTF-8") from error
-    assert reader.root is not None
-    return reader.root
-
-
 def read_model(path: Path | str) -> RexsModel:
     """Return the model of a file of REXS. Raises SpecError, one line that names the file and what is wrong."""
     file = shown_path(path)
@@ -329,7 +268,7 @@ def read_model(path: Path | str) -> RexsModel:
 
 def model_of(content: bytes, file: str) -> RexsModel:
     """Return the model of the bytes of a file. Raises SpecError."""
-    root = _tree(content, file)
+    root = xml_tree(content, file)
     version = root.attributes.get("version", "")
     if root.name != "model":
         raise SpecError(f"{file}: its outermost element is {shown(root.name, 40)}, that of REXS is model")
@@ -354,7 +293,7 @@ def model_of(content: bytes, file: str) -> RexsModel:
     return RexsModel(file, version, application, MappingProxyType(components), tuple(relations), len(cases))
 
 
-def _component(element: _XmlElement, file: str) -> RexsComponent:
+def _component(element: XmlElement, file: str) -> RexsComponent:
     number = _whole(element.attributes.get("id"), "component", file)
     written = {}
     for each in element.all("attribute"):
@@ -366,7 +305,7 @@ def _component(element: _XmlElement, file: str) -> RexsComponent:
     return RexsComponent(number, kind, " ".join(name.split()), MappingProxyType(written), file)
 
 
-def _relation(element: _XmlElement, components: Mapping[int, RexsComponent], file: str) -> RexsRelation:
+def _relation(element: XmlElement, components: Mapping[int, RexsComponent], file: str) -> RexsRelation:
     kind = element.attributes.get("type", "")
     roles = {}
     for each in element.all("ref"):

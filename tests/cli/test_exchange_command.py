@@ -120,6 +120,13 @@ BAD = {
     "beyond any": (gear(TEETH + SIZES.replace(">2<", ">1e999<")), r"normal_module = 1e999: must be a number"),
     "very long": (gear(TEETH + SIZES.replace(">2<", f">{'9' * 100000}<")), r"normal_module = 9+\.\.\.: must be a number"),
     "inches": (gear(TEETH + SIZES.replace("mm", "in", 1)), r"normal_module: its unit is in, must be mm"),
+    "a cutter without teeth": (
+        MODEL.format(
+            '<relations><relation id="1" type="reference"><ref id="1" role="origin"/><ref id="2" role="referenced"/></relation>'
+            f'</relations><components>{GEAR.format(TEETH + SIZES)}<component id="2" type="cutter_wheel_tool"/></components>'
+        ),
+        r"component 2 \(cutter_wheel_tool\): number_of_teeth is missing: it must be given",
+    ),
     "impossible": (gear(TEETH + SIZES.replace(">2<", ">-2<")), r"g: gear.normal_module = -2 mm: must be a number at least"),
     "no id": (gear("<attribute>2</attribute>"), r"component 1: an attribute has no id"),
     "a word for an id": (MODEL.format('<components><component id="x"/></components>'), r"component: id = x: must be a whole"),
@@ -139,6 +146,13 @@ BAD = {
         gear(f'{TEETH}{SIZES}<attribute id="custom_gearcad_tip_diameter">{"[" * 100000}</attribute>'),
         r"custom_gearcad_tip_diameter = \[+\.\.\.: must be a value in JSON",
     ),
+    **{
+        f"our own, {value}": (
+            gear(f'{TEETH}{SIZES}<attribute id="custom_gearcad_tip_diameter">{value}</attribute>'),
+            rf"custom_gearcad_tip_diameter = {re.escape(value)}: must be a value in JSON",
+        )
+        for value in ("null", '{"a": 1}', "[null]", '"\\ud800"')
+    },
     "our own, a word": (
         gear(f'{TEETH}{SIZES}<attribute id="custom_gearcad_tip_diameter">"x"</attribute>'),
         r"g: gear.tip_diameter = 'x': must be",
@@ -168,6 +182,12 @@ def test_other_encodings_and_bytes() -> None:
     assert run("import", "it.rexs", status=2).stderr.startswith("Error: it.rexs")
     assert run("import", "none.rexs", status=2).stderr.startswith("Error: none.rexs: cannot be read (No such file")
     assert run("import", ".", status=2).stderr.startswith("Error: .: cannot be read (Is a directory")
+
+
+def test_names_make_no_paths() -> None:
+    Path("it.rexs").write_text(gear(TEETH + SIZES).replace('name="g"', 'name="../../../etc/x"'), encoding="utf-8")
+    (written,) = run("import", "it.rexs", "-o", "out").stdout.splitlines()
+    assert Path(written).parent == Path("out") and [each.name for each in Path("out").iterdir()] == [Path(written).name]
 
 
 def test_a_file_has_no_more_gears_than_a_person_would_look_at() -> None:

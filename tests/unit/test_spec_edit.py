@@ -176,6 +176,14 @@ def test_any_pair_is_written_to_the_last_digit(inputs: dict[str, object], change
     assert again.pair.to_dict() == pair.to_dict()
 
 
+def test_a_splined_bore_is_written_by_its_designation() -> None:
+    bore = "N 20 x 1.25 x 14 x 9H"
+    design = read(
+        f'[pair]\nnormal_module = 2\nface_width = 20\n[pinion]\nteeth = 30\nbody.bore = "{bore}"\n[wheel]\nteeth = 40\n'
+    )
+    assert read(pair_text(design)) == design
+
+
 def test_what_a_spec_would_guess_is_written() -> None:
     """The other hand, automatic tips, names of gears, and enums, digits and words of the tables beside them."""
     gears = [
