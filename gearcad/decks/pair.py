@@ -28,10 +28,10 @@ from gearcad.decks.calculix import (
     write_material,
 )
 from gearcad.decks.shafts import DeckShaft
-from gearcad.geometry import GearPair
+from gearcad.geometry import GearPair, RackPair
 from gearcad.meshing.bodies import ElementMesh
 from gearcad.meshing.bodies.body_mesh import posed, poses
-from gearcad.meshing.bodies.element_mesh import BORE, RIM
+from gearcad.meshing.bodies.element_mesh import BACK, BORE, RIM
 from gearcad.meshing.bodies.sectors import ContactRefinement
 from gearcad.meshing.files import element_type, write_elements, write_nodes
 from gearcad.rating.friction import sliding_levers
@@ -102,11 +102,14 @@ def require_treatable(task: CheckTask) -> None:
 def _require_rigid_hubs(task: CheckTask) -> None:
     body = task.body
     for role, support in body.supports(task.pair).items():
+        gear = task.gears.get(role)
+        if gear is None:  # a rack is held along its back
+            continue
         if support.hold is not Hold.RIGID:
-            held = "rim" if task.gear_pair.gears.pick(role).internal else "bore"
+            held = "rim" if gear.internal else "bore"
             permitted = f'must be "{Hold.RIGID.value}" for a deck, which holds the {held} all round'
             raise ParameterError(f"check.{role.value}_support", support.hold.value, permitted)
-        if body.teeth_held(task.gear_pair.gears.pick(role)) is not None and body.cuts is not Cuts.FIXED:
+        if body.teeth_held(gear) is not None and body.cuts is not Cuts.FIXED:
             raise ParameterError("check.cuts", body.cuts.value, f'must be "{Cuts.FIXED.value}" for a deck')
 
 
@@ -115,7 +118,9 @@ def require_same_flanks(task: CheckTask) -> None:
 
     A plane deck is of the sections in the middle of both gears, our own check of those in the middle of the common width.
     """
-    pair = task.gear_pair
+    if isinstance(task.pair, RackPair):  # middles of both faces are in one plane
+        return
+    pair = task.pair
     middle = pair.common_width.offset
     for offset, gear in zip((middle, middle - pair.axial_offset), pair.gears, strict=True):
         if gear.modification.along_face and offset:
@@ -155,9 +160,22 @@ class PairDecks(ABC):
         require_treatable(self.task)
 
     @property
-    def pair(self) -> GearPair:
+    def pair(self) -> GearPair | RackPair:
         """The pair as mounted."""
-        return self.task.gear_pair
+        return self.task.pair
+
+    def posed(self, meshes: PerGear[ElementMesh], roll_angle: float, approach: float) -> ElementMesh:
+        """Return the meshes of both gears in one, at a roll angle (deg), the pinion turned by an approach (mm)."""
+        return posed(self.task.gear_pair, meshes, roll_angle, approach, left=self.left)
+
+    def turn(self, role: Role, roll_angle: float) -> float:
+        """Return the angle (rad) by which a gear is turned in the joined mesh at a roll angle (deg), without an approach."""
+        return math.radians(poses(self.task.gear_pair, roll_angle, solid=self.solid, left=self.left).pick(role).rotation)
+
+    def words(self, expected: Mapping[str, Any]) -> list[str]:
+        """Return what stands in the deck as comments, by our own figures."""
+        pair = self.task.gear_pair
+        return pair_words(expected, distance=pair.centre_distance, base_radius=pair.pinion.base_diameter / 2)
 
     @property
     def left(self) -> bool:
@@ -197,14 +215,15 @@ class PairDecks(ABC):
     @property
     def width(self) -> float | None:
         """Thickness (mm) of sections: the common face width."""
-        return None if self.solid else self.pair.common_width.width
+        return None if self.solid else self.task.width
 
     def tooth(self, role: Role, tooth: int) -> int:
         """Return the tooth of a gear that has part in our solution's pair of teeth `tooth`,
         counted counter-clockwise from 0.
         """
-        order = 1 if role is Role.PINION or self.pair.internal else -1
-        return order * (1 if self.left else -1) * tooth % self.pair.gears.pick(role).tooth_count
+        pair = self.task.gear_pair
+        order = 1 if role is Role.PINION or pair.internal else -1
+        return order * (1 if self.left else -1) * tooth % pair.gears.pick(role).tooth_count
 
     def side(self, role: Role, tooth: int, part: str) -> str:
         """Name of the loaded "flank" or "fillet" of a tooth in the joined mesh."""
@@ -233,9 +252,12 @@ class PairDecks(ABC):
         if friction is None or not (coefficient := friction.coefficient(self.cycle.model.force(self.task.torque))):
             return None
         way = (1 if friction.driver is Role.PINION else -1) * (1 if self.left else -1)
-        levers = [float(sliding_levers(self.pair, contact.place)) for contact in position.contacts if contact.share > FAIR]
+        levers = [
+            float(sliding_levers(self.task.gear_pair, contact.place)) for contact in position.contacts if contact.share > FAIR
+        ]
         turn = way * min(_SLIDING * coefficient * position.approach / max(min(levers), 1e-6), _MOST_TURN)
-        return Sliding(coefficient, turn, -turn / self.pair.gear_ratio, self.pair.centre_distance)
+        pair = self.task.gear_pair
+        return Sliding(coefficient, turn, -turn / pair.gear_ratio, pair.centre_distance)
 
     def at(self, roll_angle: float) -> PairDeck:
         """Return the pair at a roll angle (deg). Raises ParameterError, GeometryError and SolverError."""
@@ -246,7 +268,7 @@ class PairDecks(ABC):
         meshes = PerGear.each(lambda role: self.mesh(role, zones.pick(role)))
         sliding = self._sliding(position)
         start = roll_angle if sliding is None else roll_angle - math.degrees(sliding.turn) * (1 if self.left else -1)
-        mesh = posed(self.pair, meshes, start, approach, left=self.left)
+        mesh = self.posed(meshes, start, approach)
         edge = min(zone.edge for each in zones for zone in each.values())
         tips = {contact.tooth for contact in position.contacts if contact.arms.wheel != 1}
         flanks = [self.flanks(tooth, wheel_tip=tooth in tips) for tooth in self.teeth_near(roll_angle)]
@@ -263,7 +285,7 @@ class PairDecks(ABC):
             sliding=sliding,
         )
         made = PairDeck(self, deck, position, approach)
-        words = pair_words(made.expected, distance=self.pair.centre_distance, base_radius=self.pair.pinion.base_diameter / 2)
+        words = self.words(made.expected)
         words += _ON_SHAFTS.splitlines() if deck.shafts else []
         words += [] if sliding is None else _WITH_FRICTION.format(math.degrees(abs(sliding.turn))).splitlines()
         return replace(made, deck=replace(deck, words=words))
@@ -302,7 +324,7 @@ class PairDeck:
             "approach_in_mesh": self.approach * 1000,
             "transmission_error": of.approach * 1000,
             "reference_turn": math.copysign(turn, self.deck.torque),
-            "normal_force": of.force * pair.common_width.width / math.cos(math.radians(pair.pinion.base_helix_angle)),
+            "normal_force": of.force * self.decks.task.width / math.cos(math.radians(pair.pinion.base_helix_angle)),
             "pairs": [
                 {
                     "pinion": flanks.pinion,
@@ -352,7 +374,7 @@ class PairDeck:
     @property
     def _wheel_torque(self) -> float:
         """Torque on the wheel (N·m) by our own check."""
-        ratio = self.position.torque_ratios.wheel * abs(self.decks.pair.gear_ratio)
+        ratio = self.position.torque_ratios.wheel * abs(self.decks.task.gear_pair.gear_ratio)
         return abs(self.deck.torque) * ratio
 
     def _torque_on_wheel(self, totals: Mapping[str, Sequence[float]]) -> float:
@@ -360,7 +382,7 @@ class PairDeck:
         torque = 0.0
         for each in self.deck.flanks:
             for total in (totals[slave] for slave in each.slaves if slave in totals and math.isfinite(totals[slave][0])):
-                own = total[5] - self.decks.pair.centre_distance * total[1]
+                own = total[5] - self.decks.task.gear_pair.centre_distance * total[1]
                 torque += own if each.wheel_tip else -own
         return abs(torque) / 1000
 
@@ -370,7 +392,7 @@ class PairDeck:
 
     def _root_tension(self, role: Role, moved: Floats) -> float:
         decks, angle = self.decks, self.position.roll_angle
-        turn = math.radians(poses(decks.pair, angle, solid=decks.solid, left=decks.left).pick(role).rotation)
+        turn = decks.turn(role, angle)
         teeth = (decks.tooth(role, contact.tooth) for contact in self.position.contacts)
         return max(decks.root_tension(self.deck.mesh, moved, role, tooth, turn) for tooth in teeth)
 
@@ -381,11 +403,11 @@ def second_turn(deck: LoadedPairDeck) -> float:
 
 
 def held_nodes(mesh: ElementMesh, gear: str = "") -> Wholes:
-    """Return the nodes (n,) that are held: all of the bore or rim, and the cuts of a body that is not a full ring.
+    """Return the nodes (n,) that are held: all of the bore, rim or back, and the cuts of a body that is not a full ring.
 
     Names of sides begin with `gear`.
     """
-    names = (f"{gear}{side}" for side in (BORE, RIM, "cut_behind", "cut_ahead"))
+    names = (f"{gear}{side}" for side in (BORE, RIM, BACK, "cut_behind", "cut_ahead"))
     return np.unique(np.concatenate([mesh.nodes(name) for name in names if name in mesh.sides]))
 
 

@@ -88,18 +88,21 @@ class PlaneDecks(PairDecks):
             for tooth, half in wide.items()
         }
 
+    @property
+    def flank_lengths(self) -> list[float]:
+        """Lengths of the flanks of both gears (mm)."""
+        return [(gear.flank_form.last**2 - gear.flank_form.first**2) / gear.base_diameter for gear in self.task.gears.values()]
+
     def _require_wide(self, half: float) -> None:
         """Raise ParameterError where contacts are too narrow for elements that the flank's mesh can still have."""
-        least = _LEAST * max(
-            (gear.flank_form.last**2 - gear.flank_form.first**2) / gear.base_diameter for gear in self.pair.gears
-        )
+        least = _LEAST * max(self.flank_lengths)
         if half < least:
             permitted = f"must be at least {at_least(abs(self.task.torque) * (least / half) ** 2)} N·m in size for a deck"
             why = f"the contact is only {2 * half:.2g} mm wide"
             raise ParameterError("load.torque", self.task.torque, f"{permitted}: {why}", "N·m")
 
     def mesh(self, role: Role, zones: Mapping[int, ContactRefinement]) -> ElementMesh:
-        body, gear = self.task.body, self.pair.gears.pick(role)
+        body, gear = self.task.body, self.task.gears[role]
         teeth = body.teeth_held(gear)
         if teeth is not None:
             teeth = max(teeth, 2 * self.cycle.model.bodies.pick(role).neighbours + 1)
@@ -111,12 +114,13 @@ class PlaneDecks(PairDecks):
 
         It is taken at Gauss points from a tangent angle on.
         """
-        gear, modulus = self.pair.gears.pick(role), self.cycle.model.bodies.pick(role).elasticity.modulus
+        gear, modulus = self.task.gears.get(role), self.cycle.model.bodies.pick(role).elasticity.modulus
         edges = mesh.face_cells(self.side(role, tooth, "fillet"))
         slopes = shape_slopes("line3", quadrature("line3", 3).places)[:, 0]
         along, stretched = (np.einsum("qa,eac->eqc", slopes, of[edges, :2]).reshape(-1, 2) for of in (mesh.points, moved))
         stress = (stretched * along).sum(-1) / (along**2).sum(-1) * modulus
-        own = (along[:, 0] + 1j * along[:, 1]) * np.exp(-1j * (turn + 2 * math.pi * tooth / gear.tooth_count))
+        own_turn = turn if gear is None else turn + 2 * math.pi * tooth / gear.tooth_count
+        own = (along[:, 0] + 1j * along[:, 1]) * np.exp(-1j * own_turn)
         # The outline of a ring's tooth, which points inwards, runs the other way.
         rise = own.imag * self.cycle.model.bodies.pick(role).flank.upward
         at_root = np.degrees(np.arctan2(rise, np.abs(own.real))) >= LEAST_TANGENT_ANGLE

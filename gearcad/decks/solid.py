@@ -24,6 +24,7 @@ from gearcad.core.records import Bools, Floats, JsonObject, Role, Wholes
 from gearcad.decks.calculix import Flanks, number, printed_contact
 from gearcad.decks.pair import PairDeck, PairDecks, ToothDeck, held_nodes
 from gearcad.decks.shafts import DeckShaft, with_bare_section
+from gearcad.geometry import GearPair
 from gearcad.geometry.gear_data import twist
 from gearcad.material import Material
 from gearcad.meshing.bodies import Element, ElementMesh
@@ -146,6 +147,11 @@ class SolidDecks(PairDecks):
 
     solid: ClassVar[bool] = True
     begun: ClassVar[float] = 0.15
+
+    @property
+    def pair(self) -> GearPair:
+        """The pair as mounted."""
+        return self.task.gear_pair
 
     @cached_property
     def cycle(self) -> SolidCycle:

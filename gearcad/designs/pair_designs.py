@@ -53,6 +53,7 @@ if TYPE_CHECKING:
     from gearcad.check.options import CheckOptions
     from gearcad.check.task import CheckTask
     from gearcad.designs.shaft_spec import PairShafts, ShaftArrangement
+    from gearcad.dynamics.options import DynamicsOptions
     from gearcad.rating.load_factors import FaceLoadSource
 
 
@@ -369,7 +370,7 @@ class PairSpec(Spec):
         return replace(pair, wheel=replace(pair.wheel, tip_alteration=given.value + change))
 
 
-_BESIDE = ("material", "load", "check", "rating", "drawing", "verify")
+_BESIDE = ("material", "load", "check", "dynamics", "rating", "drawing", "verify")
 _GEARS = ("pinion", "rack")
 
 
@@ -378,12 +379,15 @@ class RackPairDesign(ToothedDesign):
     """A pinion and a rack, with the inputs that later stages need."""
 
     kind: ClassVar[DesignKind] = DesignKind.RACK_PAIR
-    elsewhere: ClassVar[str] = "a pinion and a rack are for `gearcad data`, build, draw, check, rate, stiffness and verify"
+    elsewhere: ClassVar[str] = (
+        "a pinion and a rack are for `gearcad data`, build, draw, check, rate, stiffness, dynamics and verify"
+    )
 
     pair: RackPair
     material: Materials | None = None
     load: Load | None = None
     check: CheckOptions | None = None
+    dynamics: DynamicsOptions | None = None
     rating: RatingOptions | None = None
 
     @classmethod

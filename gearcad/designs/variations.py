@@ -286,7 +286,7 @@ MOST_ROWS = 1_000_000
 _BESIDE = {
     DesignKind.GEAR: ("material", "load", "drawing", "verify"),
     DesignKind.RACK: ("material", "drawing", "verify"),
-    DesignKind.RACK_PAIR: ("material", "load", "check", "rating", "drawing", "verify"),
+    DesignKind.RACK_PAIR: ("material", "load", "check", "dynamics", "rating", "drawing", "verify"),
     DesignKind.SPLINE: ("material", "load", "drawing", "mesh", "verify"),
 }
 """Tables beside those of the teeth whose keys may vary; a pair has all others."""

@@ -28,7 +28,7 @@ from gearcad.core.records import Bools, Floats, JsonObject, Notice, PerGear, con
 from gearcad.dynamics.time_domain.contact_model import EngagedPairs
 from gearcad.dynamics.time_domain.transient_result import TransientOptions
 from gearcad.dynamics.trains.tooth_deviations import ErrorDistribution
-from gearcad.geometry import GearPair
+from gearcad.geometry import GearPair, RackPair
 from gearcad.rating.options import RatingOptions
 
 _CHART, _CAMPBELL, _DRAWN = 1000, 41, 200
@@ -43,6 +43,7 @@ OF_PAIRS = "of pairs"
 OF_TRAINS_OF_PAIRS = "of trains of pairs"
 """Marks what of that a train has use for whose meshes are those of pairs."""
 
+_MASS = Range("kg", 1e-12, 1e12)
 _SPEED = SPEED._replace(signed=False)
 
 _SWITCH = {"on": True, "off": False}
@@ -97,7 +98,8 @@ class DynamicsOptions:
     strain for spur gears, whose teeth come into mesh by and by under load, and potential energy for helical ones, strain energy
     where one of these is a ring.
     `damping_ratio` is that of the pair alone; both are also those of the pairs of a train, whose meshes may have damping of
-    their own. `pinion_inertia` and `wheel_inertia` are in kg·m² (None: of their own solids).
+    their own. `pinion_inertia` and `wheel_inertia` are in kg·m² (None: of their own solids). Of a pinion and a rack `rack_mass`
+    (kg) is that of the rack and of all that moves with it (None: of the rack's own solid).
     With `pinion_bearing_stiffness` and `wheel_bearing_stiffness` (N/µm across the axis) and a `bearing_damping` (N·s/m) the
     gears travel as well as turn: six degrees of freedom.
 
@@ -127,6 +129,7 @@ class DynamicsOptions:
     ] = AssumedNumber(0.07)
     pinion_inertia: Annotated[float | None, INERTIA, Words("inertia of the pinion", "J_1"), OF_PAIRS] = None
     wheel_inertia: Annotated[float | None, INERTIA, Words("inertia of the wheel", "J_2"), OF_PAIRS] = None
+    rack_mass: Annotated[float | None, _MASS, Words("mass that moves with a rack", "m_2"), OF_PAIRS] = None
     pinion_bearing_stiffness: Annotated[float | None, STIFFNESS, Words("stiffness of the pinion's bearings"), OF_PAIRS] = None
     wheel_bearing_stiffness: Annotated[float | None, STIFFNESS, Words("stiffness of the wheel's bearings"), OF_PAIRS] = None
     bearing_damping: Annotated[float, DAMPING, Words("damping of the bearings"), OF_PAIRS] = 0.0
@@ -232,12 +235,15 @@ class DynamicsOptions:
         """Number of speeds for which tooth errors are drawn."""
         return self.speeds or _DRAWN
 
-    def method_for(self, pair: GearPair) -> str:
-        """Return the name of the method for a pair's mesh stiffness."""
+    def method_for(self, pair: GearPair | RackPair) -> str:
+        """Return the name of the method for a pair's mesh stiffness. Raises GeometryError for helical racks."""
         if self.stiffness != AUTO:
             return self.stiffness
         if not pair.pinion.helix_angle:
             return "plane-strain"
+        if isinstance(pair, RackPair):
+            permitted = "must be 0 for a rack: no method knows the stiffness of helical racks over the mesh"
+            raise GeometryError("pair.helix_angle", pair.pinion.helix_angle, permitted, "deg")
         return "strain-energy" if pair.internal else "potential-energy"
 
     @property

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -12,7 +13,7 @@ from gearcad.dynamics.time_domain.contact_model import ContactModel
 from gearcad.dynamics.time_domain.time_history import CampbellStudy, TimeHistory
 from gearcad.dynamics.train_result import TrainStudy
 from gearcad.dynamics.trains.pair_on_bearings import PairOnBearings
-from gearcad.geometry import GearPair
+from gearcad.geometry import GearPair, RackPair
 from gearcad.mesh_cycle import MeshCycle
 
 __all__ = ["ContactStudy", "PairStudy"]
@@ -26,13 +27,15 @@ _STANDS_STILL = 1e6
 class PairStudy(Pictured):
     """A pair as mounted, its mesh cycle and inertias (kg·m²), and the study of both as a train of one mesh.
 
+    A rack of the mass m counts as a wheel with the pinion's base circle and the inertia m r².
+
     `method` is the title of what found the cycle. With `bearings` the charts are those of six degrees of freedom; the natural
     modes are still those of the turning alone.
     `unrated` says why K_v of ISO 6336-1 is missing, "" if it is not. `driver` is the gear that drives: the wheel if the torque
     of the load is against its speed.
     """
 
-    pair: GearPair
+    pair: GearPair | RackPair
     cycle: MeshCycle
     inertias: PerGear[float]
     method: str
@@ -50,19 +53,36 @@ class PairStudy(Pictured):
         return self.pair.name
 
     @property
+    def rack_mass(self) -> float | None:
+        """Mass (kg) that moves with the rack: m = J/r²; None of gears."""
+        if not isinstance(self.pair, RackPair):
+            return None
+        return self.inertias.wheel / (self.pair.pitch_radius / 1000) ** 2
+
+    @property
     def notices(self) -> tuple[Notice, ...]:
         """Notices to read before using the results."""
         factor = self.study.method_b
         unrated = Notice("no-standard-factor", f"no K_v of ISO 6336-1: {self.unrated}")
         standard = factor.notices if factor is not None else (unrated,)
         own = (*idle_without_levels(self.study.options), *undamped_bearings(self.study.options))
-        of_gears = (*self._driving_wheel(), *self._full_discs(), *self._free_ring())
+        of_gears = (*self._rack(), *self._driving_wheel(), *self._full_discs(), *self._free_ring())
         return (*own, *self.study.notices, *self.cycle.notices, *of_gears, *standard)
 
     @property
     def warnings(self) -> tuple[str, ...]:
         """The notices in words."""
         return texts(self.notices)
+
+    def _rack(self) -> Iterator[Notice]:
+        """Yield a notice of what the turn of a rack is."""
+        if self.rack_mass is not None and isinstance(self.pair, RackPair):
+            travel = 1000 * self.pair.pitch_radius * math.radians(1 / 3600)
+            text = (
+                f"the rack ({self.rack_mass:.4g} kg) counts as a wheel of the inertia m r² on the pinion's reference circle: "
+                f"1 arcsec of its turn is {travel:.4g} µm of travel"
+            )
+            yield Notice("rack-as-wheel", text)
 
     def _driving_wheel(self) -> Iterator[Notice]:
         """Yield a notice if the torque of the load is against its speed."""
@@ -72,7 +92,9 @@ class PairStudy(Pictured):
 
     def _full_discs(self) -> Iterator[Notice]:
         """Yield a notice for each gear with a web whose moment of inertia is not given."""
-        for role, gear in self.pair.gears.items():
+        pair = self.pair
+        gears = [(Role.PINION, pair.pinion)] if isinstance(pair, RackPair) else list(pair.gears.items())
+        for role, gear in gears:
             if gear.body.web_thickness and self.study.options.inertias.pick(role) is None:
                 own = role.value
                 text = f"the {own}'s moment of inertia is that of a full disc, without its web; {own}_inertia gives another"
@@ -80,7 +102,8 @@ class PairStudy(Pictured):
 
     def _free_ring(self) -> Iterator[Notice]:
         """Yield a notice if the moment of inertia of a ring is not given, because most rings stand still."""
-        if self.pair.internal and self.study.options.inertias.wheel is None:
+        ring = isinstance(self.pair, GearPair) and self.pair.internal
+        if ring and self.study.options.inertias.wheel is None:
             text = (
                 "the ring turns with its pinion, with the inertia of its solid, in m_red of ISO 6336-1 too; for one that"
                 f" stands still give wheel_inertia = {_STANDS_STILL:g} kg·m²"
@@ -96,6 +119,7 @@ class PairStudy(Pictured):
             "mesh_stiffness_tangent_mean": self.cycle.tangent_mean,
             "pinion_inertia": self.inertias.pinion,
             "wheel_inertia": self.inertias.wheel,
+            **({} if self.rack_mass is None else {"rack_mass": self.rack_mass}),
             "frequencies_on_bearings": None if self.bearings is None else list(self.bearings.frequencies()),
             **{key: value for key, value in self.study.to_dict().items() if key != "model"},
             "warnings": list(self.warnings),

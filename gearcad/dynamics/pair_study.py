@@ -23,7 +23,7 @@ from gearcad.dynamics.trains.pair_on_bearings import PairOnBearings
 from gearcad.dynamics.trains.shaft_lines import system
 from gearcad.dynamics.trains.tooth_deviations import TransmissionError
 from gearcad.dynamics.trains.train import Train
-from gearcad.geometry import GearPair
+from gearcad.geometry import Gear, GearPair, RackPair
 from gearcad.load import Load
 from gearcad.material import Materials
 from gearcad.mesh_cycle import MeshCycle
@@ -38,7 +38,7 @@ _SPAN = 3.0
 
 
 def study_pair(
-    pair: GearPair,
+    pair: GearPair | RackPair,
     material: Materials,
     load: Load,
     cycle: MeshCycle,
@@ -55,20 +55,27 @@ def study_pair(
 
     `cycle` is the pair's mesh cycle under the load, `inertias` (kg·m²) those of pinion and wheel; their `masses` (kg) are
     needed where the options give bearings. The accuracy grade of the options wins over that of the `rating`. If the torque of
-    the load is against its speed, the wheel drives: contact then moves from tip to root of the pinion, as in a train.
+    the load is against its speed, the wheel drives: contact then moves from tip to root of the pinion, as in a train. The
+    inertia of a rack is its mass times the square of the pinion's reference radius; springs between single teeth, and
+    bearings, are of gears only.
     """
+    require_rack_options(pair, options or DynamicsOptions())
     inertias = PerGear(*inertias)
     options = (options or DynamicsOptions()).graded(rating := rating or RatingOptions())
     assert options.accuracy_grade is not None  # it has one now
     rating = replace(rating, accuracy_grade=options.accuracy_grade)
-    options = replace(options, accuracy_grade=max(map(rating.grade_of, pair.gears)))  # a gear's own counts before it
+    options = replace(options, accuracy_grade=max(map(rating.grade_of, _gears(pair))))  # a gear's own counts before it
     train = pair_train(pair, cycle, inertias, torque=cycle.torque, speed=load.speed, damping_ratio=options.damping_ratio)
     driver = Role.WHEEL if load.torque * load.speed < 0 else Role.PINION
     in_time = cycle if driver is Role.PINION else cycle.backwards
     excitation = pair_excitation(train, in_time, _smooth_errors(pair, rating, options))
-    teeth = _single_teeth(pair, cycle, rating, options, driver) if options.drawn else None
-    factor, unrated = _method_b(pair, material, load, inertias, rating)
-    bearings = _on_bearings(train, pair, options, masses)
+    if isinstance(pair, RackPair):
+        teeth, bearings = None, None
+        factor, unrated = None, "the standard has no method for a rack"
+    else:
+        teeth = _single_teeth(pair, cycle, rating, options, driver) if options.drawn else None
+        factor, unrated = _method_b(pair, material, load, inertias, rating)
+        bearings = _on_bearings(train, pair, options, masses)
     study = study_train(
         train,
         options,
@@ -92,7 +99,24 @@ def study_pair(
     )
 
 
-def _smooth_errors(pair: GearPair, rating: RatingOptions, options: DynamicsOptions) -> TransmissionError | None:
+def _gears(pair: GearPair | RackPair) -> tuple[Gear, ...]:
+    """Return both gears, or the pinion of a rack."""
+    return (pair.pinion,) if isinstance(pair, RackPair) else tuple(pair.gears)
+
+
+def require_rack_options(pair: GearPair | RackPair, options: DynamicsOptions) -> None:
+    """Raise ParameterError for a rack where the options ask for what only gears have."""
+    if not isinstance(pair, RackPair):
+        return
+    if options.drawn:
+        permitted = "must be 1 for a rack, and premature_engagement off: springs between single teeth are of gears only"
+        raise ParameterError("dynamics.error_samples", options.error_samples, permitted)
+    if (stiffness := options.bearing_stiffness.pinion) is not None:
+        permitted = "must be left out for a rack: gears that travel on bearings are pairs of gears"
+        raise ParameterError("dynamics.pinion_bearing_stiffness", stiffness, permitted, "N/µm")
+
+
+def _smooth_errors(pair: GearPair | RackPair, rating: RatingOptions, options: DynamicsOptions) -> TransmissionError | None:
     """Return the tooth errors of one chart; None if there are none or they are drawn in a study of their own."""
     if not options.errors or options.drawn:
         return None

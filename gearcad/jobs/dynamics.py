@@ -17,7 +17,7 @@ from gearcad.core.errors import GeometryError, InputError, ParameterError, Solve
 from gearcad.core.quantities import with_assumed
 from gearcad.core.records import JsonObject, Notice, PerGear, Role
 from gearcad.core.runtime import Agenda, Expected, Progress, one_thread
-from gearcad.designs import Design, DesignKind, Inputs, PairDesign, TrainDesign
+from gearcad.designs import Design, DesignKind, Inputs, PairDesign, RackPairDesign, TrainDesign
 from gearcad.designs.cells import cell_text, guarded_text, write_csv
 from gearcad.designs.spec_writers import pair_specs
 from gearcad.designs.variations import Variants
@@ -26,14 +26,14 @@ from gearcad.dynamics.level_study import study_levels
 from gearcad.dynamics.level_verdict import LevelStudy, finest_first
 from gearcad.dynamics.options import DynamicsOptions, PairModel, idle_without_levels
 from gearcad.dynamics.pair_result import ContactStudy, PairStudy
-from gearcad.dynamics.pair_study import study_contact, study_pair
+from gearcad.dynamics.pair_study import require_rack_options, study_contact, study_pair
 from gearcad.dynamics.sound import sound_of
 from gearcad.dynamics.train_result import ModalStudy, TrainStudy
 from gearcad.dynamics.train_study import expected_train, study_modes, study_torques, study_train, study_undamped
 from gearcad.dynamics.trains.steady_response import UndampedError
 from gearcad.dynamics.trains.train import Train
 from gearcad.dynamics.variant_comparison import SideBySide
-from gearcad.geometry import GearPair
+from gearcad.geometry import GearPair, RackPair
 from gearcad.geometry.gear import refuse_halves
 from gearcad.jobs.job import ReportedJob, Writer, as_design
 from gearcad.load import Load
@@ -169,12 +169,12 @@ _TABLES = (
 
 
 @dataclass(frozen=True, kw_only=True)
-class Dynamics(ReportedJob[PairDesign | TrainDesign, Study]):
+class Dynamics(ReportedJob[PairDesign | RackPairDesign | TrainDesign, Study]):
     """The study for which [dynamics] of a design asks; with `wav` its sound as well, in dynamics.wav."""
 
     wav: bool = False
     verb = "dynamics"
-    accepts = (DesignKind.PAIR, DesignKind.TRAIN)
+    accepts = (DesignKind.PAIR, DesignKind.RACK_PAIR, DesignKind.TRAIN)
     why = "a single gear has no mesh"
     sometimes = ("dynamics.wav", *(file_name("dynamics", name) for name in _TABLES))
 
@@ -276,7 +276,7 @@ _ALONE = "has its natural frequencies without damping and, with [dynamics.transi
 """End of the message for an undamped train that is not overlaid with another: what it does have."""
 
 
-def _of_pair(design: PairDesign, progress: Progress | None) -> PairStudy | ContactStudy:
+def _of_pair(design: PairDesign | RackPairDesign, progress: Progress | None) -> PairStudy | ContactStudy:
     if design.load is None or not design.load.torque:
         given = None if design.load is None else design.load.torque
         raise ParameterError(
@@ -284,6 +284,10 @@ def _of_pair(design: PairDesign, progress: Progress | None) -> PairStudy | Conta
         )
     refuse_halves(design.pair.pinion, "dynamics")
     options, material = design.dynamics or DynamicsOptions(), design.material or Material()
+    if isinstance(design, RackPairDesign):
+        return _of_rack(design, design.load, options, progress)
+    if options.rack_mass is not None:
+        raise ParameterError("dynamics.rack_mass", options.rack_mass, "must be left out for a pair of gears", "kg")
     pair = design.pair if design.mounting is None else design.mounting.mounted(design.pair)
     contact = options.pair_model is PairModel.CONTACT
     if contact and pair.pinion.helix_angle:
@@ -312,6 +316,32 @@ def _of_pair(design: PairDesign, progress: Progress | None) -> PairStudy | Conta
         tell=agenda,
         share=agenda.within("chart"),
         drawn=agenda.within(_ERRORS),
+    )
+
+
+def _of_rack(design: RackPairDesign, load: Load, options: DynamicsOptions, progress: Progress | None) -> PairStudy:
+    """Return the study of a pinion and a rack, whose mass is that of its solid unless it is given."""
+    from gearcad.solids.exact.inertia import mass_properties, rack_mass
+    from gearcad.stiffness.methods import METHODS
+
+    pair, materials = design.pair, design.materials
+    if options.pair_model is PairModel.CONTACT:
+        raise ParameterError("dynamics.model", options.model, 'must be "mesh" for a rack: "contact" is of gears only')
+    if options.wheel_inertia is not None:
+        permitted = "must be left out for a rack, which has rack_mass (kg)"
+        raise ParameterError("dynamics.wheel_inertia", options.wheel_inertia, permitted, "kg·m²")
+    require_rack_options(pair, options)
+    kind = METHODS[options.method_for(pair)]
+    agenda = Agenda(progress, _steps(_PAIR[options.pair_model], options))
+    agenda("inertias")
+    turning = options.pinion_inertia or mass_properties(pair.pinion, materials.pinion.density).inertia
+    mass = options.rack_mass or rack_mass(pair.rack, materials.wheel.density)
+    inertias = PerGear(turning, mass * (pair.pitch_radius / 1000) ** 2)
+    agenda("mesh stiffness")
+    material = design.material or Material()
+    cycle = kind(pair=pair, material=material, body=(design.check or CheckOptions()).body)(load)
+    return study_pair(
+        pair, material, load, cycle, inertias, options, rating=design.rating, tell=agenda, share=agenda.within("chart")
     )
 
 
@@ -353,7 +383,7 @@ def _masses(pair: GearPair, materials: PerGear[Material]) -> PerGear[float]:
 
 
 def dynamics(
-    subject: Design | GearPair | Train,
+    subject: Design | GearPair | RackPair | Train,
     load: Load | None = None,
     *,
     progress: Progress | None = None,
@@ -396,7 +426,7 @@ def _report_progress(progress: Progress, label: str, before: int, count: int, st
     progress(f"{label}: {step}", before + done / of, count)
 
 
-def _require_chart(design: PairDesign | TrainDesign) -> None:
+def _require_chart(design: PairDesign | RackPairDesign | TrainDesign) -> None:
     """Raise ParameterError for a design without a chart of K_v, or with several."""
     if isinstance(design, TrainDesign):
         if design.other_models:

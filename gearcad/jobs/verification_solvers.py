@@ -14,9 +14,10 @@ from gearcad.core.errors import GearcadError
 from gearcad.core.records import JsonObject
 from gearcad.decks.pair import PairDecks
 from gearcad.decks.plane import PlaneDecks
+from gearcad.decks.rack import plane_decks
 from gearcad.decks.solid import SolidDecks, solid_task
 from gearcad.designs import DesignKind, GearDesign, ToothedDesign
-from gearcad.geometry import Gear
+from gearcad.geometry import Gear, RackPair
 from gearcad.jobs.mesh import Mesh
 from gearcad.meshing import MeshSizes
 from gearcad.meshing.bodies.quality import LEAST_SCALED_JACOBIAN
@@ -28,7 +29,7 @@ from gearcad.verification.exact_parts import ExactPart
 from gearcad.verification.mesh_files import StatedMesh, judge_mesh
 
 if TYPE_CHECKING:
-    from gearcad.designs import PairDesign
+    from gearcad.designs import PairDesign, RackPairDesign
 
 MESH_FORMATS = ("vtu", "inp", "msh")
 """Formats of the meshes that are made and judged."""
@@ -106,7 +107,7 @@ def judge_by_calculix(design: ToothedDesign) -> Iterator[Claim]:
     what = "transmission error, load share, root stress, pressure"
     reason = (
         f"decks are of pairs, this is a {design.kind.words}"
-        if design.kind is not DesignKind.PAIR
+        if design.kind not in (DesignKind.PAIR, DesignKind.RACK_PAIR)
         else "the design has no load"
         if getattr(design, "load", None) is None
         else missing()
@@ -115,7 +116,7 @@ def judge_by_calculix(design: ToothedDesign) -> Iterator[Claim]:
         yield judge.not_judged(what, reason)
         return
     try:
-        decks = _decks(cast("PairDesign", design))
+        decks = _decks(cast("PairDesign | RackPairDesign", design))
     except GearcadError as error:
         yield judge.not_judged(what, f"no deck can be made: {error}")
         return
@@ -189,8 +190,10 @@ def _middles(decks: PairDecks) -> tuple[float, float]:
     return (first, second) if decks.left else (-first, -second)
 
 
-def _decks(design: PairDesign) -> PairDecks:
+def _decks(design: PairDesign | RackPairDesign) -> PairDecks:
     """The decks of a pair: of sections, or of bodies where its teeth are helical. Raises GearcadError."""
+    if isinstance(design.pair, RackPair):
+        return plane_decks(design.check_task("a deck is of pressed flanks"))
     solid = bool(design.pair.pinion.helix_angle)
     model = Model.SOLID if solid else Model.PLANE
     own = design.check or CheckOptions()

@@ -247,6 +247,11 @@ def pair_dynamics_rows(study: PairStudy) -> list[ReportRow]:
     row, ratio = modes.rigid, of.options.damping_ratio
     rows = [
         ReportRow("moment of inertia", "J", tuple(map(short, study.inertias)), "kg·m²", ""),
+        *(
+            []
+            if study.rack_mass is None
+            else [ReportRow("mass that moves with the rack", "m_2", (_NONE, short(study.rack_mass)), "kg", "J_2 = m_2 r²")]
+        ),
         ReportRow("torque on the pinion", "T_1", (short(cycle.torque),), "N·m", ""),
         ReportRow("force along the line of action, at rest", "F_bt", (short(float(of.up.static_forces[0])),), "N", ""),
         ReportRow("mesh stiffness, mean secant", "k", (short(cycle.mean),), "N/µm", study.method),

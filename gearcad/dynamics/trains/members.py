@@ -38,7 +38,7 @@ from gearcad.core.quantities import (
 )
 from gearcad.core.records import PerGear, Role, concise
 from gearcad.dynamics.trains.shaft_layout import ShaftLayout, require_distinct
-from gearcad.geometry import GearPair
+from gearcad.geometry import GearPair, RackPair
 from gearcad.geometry.gear import refuse_halves
 from gearcad.load import Load
 from gearcad.material import Material, Materials
@@ -78,7 +78,7 @@ class MeshPair:
         return line_backlash(self.mounted)
 
 
-def line_backlash(pair: GearPair) -> float:
+def line_backlash(pair: GearPair | RackPair) -> float:
     """Return the backlash of a pair along the line of action, at its centre distance (µm)."""
     across = math.cos(math.radians(pair.working_transverse_pressure_angle))
     return max(1000 * pair.circumferential_backlash * across, 0.0)

@@ -30,7 +30,7 @@ from gearcad.dynamics.trains.tooth_deviations import (
     tooth_errors,
 )
 from gearcad.dynamics.trains.train import EngagedMesh, Train, TrainModel, require_known
-from gearcad.geometry import GearPair
+from gearcad.geometry import GearPair, RackPair
 from gearcad.mesh_cycle import MeshCycle
 from gearcad.rating.options import RatingOptions
 from gearcad.rating.tolerances import flank_tolerances
@@ -534,15 +534,23 @@ def wheel_teeth(mesh: ToothMesh) -> int:
     return round(teeth)
 
 
+def base_radii(pair: GearPair | RackPair) -> PerGear[float]:
+    """Return the base radii (mm) of both gears; a rack counts as a wheel with that of its pinion."""
+    if isinstance(pair, RackPair):
+        return PerGear(pair.pinion.base_diameter / 2, pair.pinion.base_diameter / 2)
+    return pair.gears.map(lambda gear: gear.base_diameter / 2)
+
+
 def pair_train(
-    pair: GearPair, cycle: MeshCycle, inertias: PerGear[float], *, torque: float, speed: float, damping_ratio: float
+    pair: GearPair | RackPair, cycle: MeshCycle, inertias: PerGear[float], *, torque: float, speed: float, damping_ratio: float
 ) -> Train:
     """Return a pair by itself as a train with `inertias` (kg·m²), a `torque` (N·m) on it and a `speed` (rpm).
 
     The mesh has the mean tangent stiffness of the cycle and the backlash of the pair. A ring turns with its pinion, so the
-    torque on it is negative.
+    torque on it is negative. The inertia of a rack of the mass m is m r², at the pinion's reference circle: so it counts as a
+    wheel with the pinion's base circle.
     """
-    radii = pair.gears.map(lambda gear: gear.base_diameter / 2)
+    radii = base_radii(pair)
     return Train(
         name=pair.name,
         model=TrainModel.ISOLATED,
@@ -557,7 +565,7 @@ def pair_train(
                 teeth=pair.pinion.teeth,
                 damping_ratio=damping_ratio,
                 backlash=line_backlash(pair),
-                internal=pair.internal,
+                internal=isinstance(pair, GearPair) and pair.internal,
             ),
         ),
         torques={"pinion": abs(torque), "wheel": abs(torque) * radii.wheel / radii.pinion},
@@ -575,7 +583,7 @@ def pair_excitation(train: Train, cycle: MeshCycle, errors: TransmissionError | 
 
 
 def pair_errors(
-    pair: GearPair, rating: RatingOptions, seed: int, distribution: ErrorDistribution = ErrorDistribution.UNIFORM
+    pair: GearPair | RackPair, rating: RatingOptions, seed: int, distribution: ErrorDistribution = ErrorDistribution.UNIFORM
 ) -> TransmissionError:
     """Return the transmission error (µm) of random deviations of the pinion's teeth, drawn with `seed`.
 

@@ -22,6 +22,9 @@ BORE = "bore"
 GAP = "gap"
 """The ground between the halves of a double helical gear; its ends are "gap_back" and "gap_front"."""
 
+BACK = "back"
+"""Name of the back of a rack."""
+
 RIM = "rim"
 """Name of the outside of a ring."""
 

@@ -213,7 +213,7 @@ def _laplacian(section: ElementMesh) -> tuple[Cells, Any]:
 
 NO_CONTACTS: Mapping[int, ContactRefinement] = MappingProxyType({})
 
-_OF_TEETH = {
+TEETH_SIDES = {
     OutlineSide.RIGHT_ROOT: "right_root",
     OutlineSide.RIGHT_FILLET: "right_fillet",
     OutlineSide.RIGHT_FLANK: "right_flank",
@@ -225,7 +225,7 @@ _OF_TEETH = {
 """Names of what each tooth has of its own; its number follows."""
 
 _ACROSS = OTHER_SIDE | {other: side for side, other in OTHER_SIDE.items()}
-_OF_RINGS = {side: _OF_TEETH[_ACROSS[side]] for side in _OF_TEETH}
+_OF_RINGS = {side: TEETH_SIDES[_ACROSS[side]] for side in TEETH_SIDES}
 """Names of sides of a ring, whose teeth point the other way."""
 
 
@@ -281,22 +281,42 @@ def teeth_of(gear: Gear, teeth: int | None) -> range:
 
 def _merged(gear: Gear, element: Element, teeth: range, sectors: Sequence[SectorSides], *, closed: bool) -> ElementMesh:
     """Sectors turned to the places of their teeth, nodes on common cuts once."""
+    placed, named = list[Floats](), list[dict[str, Faces]]()
+    for tooth, sector in zip(teeth, sectors, strict=True):
+        placed.append(_turned(sector.points, 2 * math.pi * tooth / gear.tooth_count))
+        names = _named(gear, sector, element, tooth % gear.tooth_count)
+        if not closed:
+            names |= _cuts(sector, element, tooth - teeth.start, len(teeth))
+        named.append(names)
+    return merged_sectors(element, sectors, placed, named, closed=closed, matched=not closed)
+
+
+def merged_sectors(
+    element: Element,
+    sectors: Sequence[SectorSides],
+    placed: Sequence[Floats],
+    named: Sequence[Mapping[str, Faces]],
+    *,
+    closed: bool,
+    matched: bool,
+) -> ElementMesh:
+    """Return sectors as one mesh: their nodes `placed` (n, 2) in mm, those on common cuts once, sides as they are `named`.
+
+    In a `closed` ring the last sector meets the first. The outer cuts are pairs of nodes where they are `matched`.
+    """
     numbers = _numbers(sectors, element.shape.vertices, closed=closed)
     points = np.zeros((1 + max(int(number.max()) for number in numbers), 3))
     cells, sides = list[Cells](), dict[str, list[Faces]]()
     elements = 0
-    for tooth, sector, number in zip(teeth, sectors, numbers, strict=True):
-        points[number, :2] = _turned(sector.points, 2 * math.pi * tooth / gear.tooth_count)
+    for sector, at, number, names in zip(sectors, placed, numbers, named, strict=True):
+        points[number, :2] = at
         cells.append(number[sector.cells].astype(np.int32))
-        named = _named(gear, sector, element, tooth % gear.tooth_count)
-        if not closed:
-            named |= _cuts(sector, element, tooth - teeth.start, len(teeth))
-        for name, faces in named.items():
+        for name, faces in names.items():
             sides.setdefault(name, []).append(faces.shifted(elements))
         elements += len(sector.cells)
     every = {name: _together(parts) for name, parts in sides.items()}
-    matched = {} if closed else {"cut": np.stack([numbers[0][sectors[0].behind], numbers[-1][sectors[-1].ahead]], -1)}
-    return ElementMesh(element, points, np.concatenate(cells), {"gear": slice(0, elements)}, every, matched)
+    pairs = {"cut": np.stack([numbers[0][sectors[0].behind], numbers[-1][sectors[-1].ahead]], -1)} if matched else {}
+    return ElementMesh(element, points, np.concatenate(cells), {"gear": slice(0, elements)}, every, pairs)
 
 
 def _numbers(sectors: Sequence[SectorSides], vertices: int, *, closed: bool) -> list[Wholes]:
@@ -322,9 +342,9 @@ def _numbers(sectors: Sequence[SectorSides], vertices: int, *, closed: bool) -> 
 
 def _named(gear: Gear, sector: SectorSides, element: Element, tooth: int) -> dict[str, Faces]:
     """Return the sides of a tooth's sector under the names that they have in the whole, without the cuts."""
-    names = _OF_RINGS if gear.internal else _OF_TEETH
-    found = {f"{name}_{tooth}": _faces(sector, side, element) for side, name in names.items() if side in sector.sides}
-    found[body_side(gear)] = _faces(sector, OutlineSide.HELD, element)
+    names = _OF_RINGS if gear.internal else TEETH_SIDES
+    found = {f"{name}_{tooth}": faces_of(sector, side, element) for side, name in names.items() if side in sector.sides}
+    found[body_side(gear)] = faces_of(sector, OutlineSide.HELD, element)
     return found
 
 
@@ -332,13 +352,13 @@ def _cuts(sector: SectorSides, element: Element, place: int, count: int) -> dict
     """Return the cuts that the sector in one of `count` places has beside no other."""
     found = {}
     if place == 0:
-        found["cut_behind"] = _faces(sector, OutlineSide.BEHIND, element)
+        found["cut_behind"] = faces_of(sector, OutlineSide.BEHIND, element)
     if place == count - 1:
-        found["cut_ahead"] = _faces(sector, OutlineSide.AHEAD, element)
+        found["cut_ahead"] = faces_of(sector, OutlineSide.AHEAD, element)
     return found
 
 
-def _faces(sector: SectorSides, side: OutlineSide, element: Element) -> Faces:
+def faces_of(sector: SectorSides, side: OutlineSide, element: Element) -> Faces:
     """Return the edges of a side of the outline. Each has its middle to itself, and that belongs to one element."""
     middles = sector.cells[:, element.shape.vertices :].ravel()
     order = np.argsort(middles, kind="stable")
