@@ -31,6 +31,7 @@ from gearcad.designs.train_keys import ALL, MAIN, TORQUES, TRAIN, TRAIN_PARTS, T
 from gearcad.designs.train_shafts import LAYOUT_KEYS, read_layout, read_shaft_options, require_faces
 from gearcad.dynamics.options import OF_PAIRS, OF_TRAINS_OF_PAIRS, DynamicsOptions
 from gearcad.dynamics.trains.members import BESIDE_PAIR, MeshPair, Shaft, ToothMesh
+from gearcad.dynamics.trains.solid_inertias import solid_notices
 from gearcad.dynamics.trains.torque_excitation import TorqueExcitation
 from gearcad.dynamics.trains.train import Train, TrainModel, train_document
 from gearcad.material import Material
@@ -372,9 +373,10 @@ class TrainDesign(Design):
 
     @property
     def notices(self) -> tuple[Notice, ...]:
-        """Notices of the designs of the pairs, each with the name of its mesh."""
+        """Notices of the designs of the pairs, each with the name of its mesh, and of inertias that are from solids."""
         designed = ((mesh.name, mesh.pair.design) for mesh in self.train.meshes if isinstance(mesh.pair, DesignedPair))
-        return tuple(notice.within(name) for name, design in designed for notice in design.notices)
+        of_pairs = (notice.within(name) for name, design in designed for notice in design.notices)
+        return (*solid_notices(self.train.inertias, self.train.meshes), *of_pairs)
 
     def require_kind(self, *kinds: DesignKind, why: str) -> None:
         """Raise ParameterError unless it is of one of these kinds: jobs of pairs take the specs of its pairs."""

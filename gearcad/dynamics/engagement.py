@@ -16,6 +16,7 @@ from gearcad.core.quantities import TORQUE
 from gearcad.core.records import Floats, Notice, Role
 from gearcad.dynamics.options import DynamicsOptions
 from gearcad.dynamics.trains.members import MeshCourse, MeshPair, ToothMesh
+from gearcad.dynamics.trains.solid_inertias import solid_notices
 from gearcad.dynamics.trains.train import EngagedMesh, Train, pressing_forces
 from gearcad.geometry import GearPair
 from gearcad.load import Load
@@ -231,9 +232,10 @@ def _engaged(mesh: ToothMesh, cycle: MeshCycle, load: PinionLoad, rounds: int, o
 
 
 def pair_notices(train: Train) -> tuple[Notice, ...]:
-    """Return the notices about the pairs of a train, each with the name of its mesh."""
+    """Return the notices about the pairs of a train, each with the name of its mesh, and of inertias that are from solids."""
     engaged_meshes = [mesh for mesh in train.meshes if isinstance(mesh, EngagedMesh)]
-    return tuple(notice.within(mesh.name) for mesh in engaged_meshes for notice in _notices(train, mesh))
+    of_pairs = (notice.within(mesh.name) for mesh in engaged_meshes for notice in _notices(train, mesh))
+    return (*solid_notices(train.inertias, train.meshes), *of_pairs)
 
 
 def _notices(train: Train, mesh: EngagedMesh) -> Iterator[Notice]:

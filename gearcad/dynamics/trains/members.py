@@ -132,10 +132,13 @@ class StiffnessWave(Enum):
 
 @dataclass(frozen=True, kw_only=True)
 class Inertia(NamedPart):
-    """A rigid body that turns: a gear, a motor, a load. `inertia` in kg·m². Raises ParameterError."""
+    """A rigid body that turns: a gear, a motor, a load. `inertia` in kg·m². Raises ParameterError.
+
+    Without an `inertia` that of a gear of a pair is the one of its solid; a train finds it.
+    """
 
     name: str
-    inertia: Annotated[float, INERTIA, Words("inertia", "J")]
+    inertia: Annotated[float, INERTIA, Words("inertia", "J")] = NOT_GIVEN
 
     __repr__ = concise
 

@@ -16,6 +16,7 @@ from gearcad.core.errors import GeometryError, ParameterError, require_name
 from gearcad.core.quantities import SPEED, TORQUE, Whole, Words, require_fields
 from gearcad.core.records import Floats, JsonObject, Notice, concise
 from gearcad.dynamics.trains.members import GROUND, Graph, Inertia, MeshCourse, MeshPair, Shaft, ToothMesh, turning_pieces
+from gearcad.dynamics.trains.solid_inertias import with_solids
 from gearcad.dynamics.trains.torque_excitation import TorqueExcitation, require_excitations
 
 
@@ -65,6 +66,7 @@ class Train:
             TORQUE.require(f"torques.{inertia}", torque)
         self._graph.require_one_train(self.torques)
         require_excitations(self.excitations, [inertia.name for inertia in self.inertias])
+        object.__setattr__(self, "inertias", with_solids(self.inertias, self.meshes))
         object.__setattr__(self, "shafts", tuple(shaft.on_gears(self.meshes) for shaft in self.shafts))
         if self.model is TrainModel.ISOLATED and not self.meshes:
             raise GeometryError(
