@@ -59,6 +59,7 @@ _OPTIONS = (
     click.option("--carrier", is_flag=True, help="Make a carrier too: plates, and pins in the planets' bores (trains)."),
     click.option("--exploded", is_flag=True, help="Move the members of the assembly apart along the axis (trains)."),
     click.option("--turning", is_flag=True, help=_TURNING),
+    click.option("--ap242", is_flag=True, help="Write STEP in AP242 in place of AP214: the same solids, names and colours."),
 )
 
 

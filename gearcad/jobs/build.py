@@ -141,6 +141,7 @@ _WHERE = {
     "carrier": "the carrier is a body",
     "exploded": "the assembly is there",
     "turning": "it is an animation of assembly.glb",
+    "ap242": "it is a protocol of STEP",
 }
 """The effect of options that only a few formats show, for messages."""
 
@@ -381,6 +382,7 @@ def build(
     carrier: bool = False,
     exploded: bool = False,
     turning: bool = False,
+    ap242: bool = False,
     as_made: bool = False,
     progress: Progress | None = None,
 ) -> list[Path]:
@@ -389,6 +391,7 @@ def build(
     `formats` are of "step", "stl", "3mf", "glb", "png", "dxf" and "csv". `chord_error` (mm) bounds the facets; `bracket` puts a
     pair on two shafts with a bracket (STEP); `circles` draws the tip, reference, base and root circles (DXF), of a rack the
     lines. Of a planetary train, `carrier` adds pins and plates, `exploded` moves members apart, `turning` animates (GLB).
+    `ap242` writes STEP in AP242 in place of AP214.
     `as_made` adds the files of gears as they are made (see `Making`).
 
     >>> import tempfile
@@ -401,7 +404,13 @@ def build(
     kernel fails.
     """
     options = FileOptions(
-        chord_error=chord_error, bracket=bracket, circles=circles, carrier=carrier, exploded=exploded, turning=turning
+        chord_error=chord_error,
+        bracket=bracket,
+        circles=circles,
+        carrier=carrier,
+        exploded=exploded,
+        turning=turning,
+        ap242=ap242,
     )
     job = Build(formats=_formats(formats), options=options, as_made=as_made)
     design = as_design(subject)

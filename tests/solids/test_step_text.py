@@ -13,7 +13,7 @@ from support.step_witness import assert_same_solids, checked_text, product_tree
 from support.strategies import build_gear, gear_inputs
 from support.train_solids import simple_set, small_train
 
-from gearcad import Body, Gear, GearPair, Rack
+from gearcad import Body, Gear, GearPair, Rack, build
 from gearcad.core.errors import InputError
 from gearcad.designs import read_spec
 from gearcad.geometry import DoubleHelix, RackPair
@@ -23,7 +23,7 @@ from gearcad.solids.body_plan import BRIGHT_STEEL, PART_COLOURS, STEEL
 from gearcad.solids.exact.assemblies import pair_product, rack_product
 from gearcad.solids.exact.rack_solid import rack_boundary
 from gearcad.solids.exact.solid import AssembledProduct, Product, SolidProduct, cad_assembly, cad_solid, gear_boundary
-from gearcad.solids.files.step import real, write_by_kernel, write_product
+from gearcad.solids.files.step import StepSchema, real, write_by_kernel, write_product
 from gearcad.solids.files.train_products import carrier_boundary, carrier_solid, train_product
 from gearcad.solids.train_plan import CarrierPlan, TrainPlan
 
@@ -313,3 +313,42 @@ def test_equal_input_gives_equal_bytes_and_settings_stay(tmp_path: Path, monkeyp
     assert before == (Interface_Static.IVal_s("write.surfacecurve.mode"), Interface_Static.CVal_s("write.step.schema"))
     text = found.pop().decode("ascii")
     assert "'2000-01-01T00:00:00'" in text and "PCURVE" not in text
+
+
+AP242 = (
+    ("AUTOMOTIVE_DESIGN { 1 0 10303 214 1 1 1 1 }", "AP242_MANAGED_MODEL_BASED_3D_ENGINEERING_MIM_LF { 1 0 10303 442 1 1 4 }"),
+    ("core data for automotive mechanical design processes", "managed model based 3d engineering"),
+    ("'automotive_design',2000", "'ap242_managed_model_based_3d_engineering',2014"),
+)
+"""What differs between a file in AP214 and one in AP242."""
+
+
+@pytest.mark.parametrize("own", [True, False], ids=["ours", "the kernel's"])
+def test_ap242_differs_in_its_schema_alone(own: bool, tmp_path: Path) -> None:
+    """Names and places are those of the CAD kernel's reader in both."""
+    solid = pair_assembly(GearPair(pinion=_bodied(), wheel=_bodied(12), name="pair ä"))
+    texts = []
+    for schema in StepSchema:
+        path = tmp_path / f"{schema.name}.step"
+        if own:
+            write_step(solid, path, name="pair ä", schema=schema)
+        else:
+            write_by_kernel(solid, path, "pair ä", schema)
+        texts.append(path.read_text(encoding="ascii"))
+    plain, other = texts
+    if own:
+        for before, after in AP242:
+            assert plain.count(before) == 1
+            plain = plain.replace(before, after)
+        assert other == plain
+    else:
+        assert AP242[0][1] in other and "'ap242_managed_model_based_3d_engineering'" in other
+    trees = [product_tree(tmp_path / f"{schema.name}.step") for schema in StepSchema]
+    assert trees[0] == trees[1]
+
+
+def test_ap242_is_an_option_of_files(tmp_path: Path) -> None:
+    (path,) = [each for each in build(_bodied(), tmp_path, ["step"], ap242=True) if each.suffix == ".step"]
+    assert AP242[0][1] in path.read_text(encoding="ascii")
+    with pytest.raises(InputError, match=r"ap242 = True: needs the format step: it is a protocol of STEP"):
+        build(_bodied(), tmp_path, ["stl"], ap242=True)

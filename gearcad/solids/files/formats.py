@@ -71,18 +71,19 @@ def formats_minding(option: str) -> list[Format]:
 
 
 def _step(product: PartProduct | BodyProduct | AssemblyProduct, path: Path) -> None:
-    from gearcad.solids.files.step import write_product, write_step
+    from gearcad.solids.files.step import StepSchema, write_product, write_step
 
+    schema = StepSchema.AP242 if product.options.ap242 else StepSchema.AP214
     if blanks := product.blanks:
         from gearcad.solids.exact.own_blank import assembly_with_blanks, toothed_blank
 
         solid = product.solid()
         if isinstance(solid, AssembledProduct):
-            write_step(assembly_with_blanks(solid, blanks), path, name=solid.name)
+            write_step(assembly_with_blanks(solid, blanks), path, name=solid.name, schema=schema)
         else:
-            write_step(toothed_blank(blanks[solid.name]), path, name=solid.name)
+            write_step(toothed_blank(blanks[solid.name]), path, name=solid.name, schema=schema)
         return
-    write_product(product.solid(), path)
+    write_product(product.solid(), path, schema)
 
 
 def _stl(product: PartProduct | BodyProduct, path: Path) -> None:
@@ -131,7 +132,9 @@ _FACETED = ("chord_error",)
 _PLACED = ("carrier", "exploded")
 
 _ENTRIES = {
-    Format.STEP: SolidFormat("the exact solid", _step, _step, ("bracket", *_PLACED), write_train=_step, write_body=_step),
+    Format.STEP: SolidFormat(
+        "the exact solid", _step, _step, ("bracket", *_PLACED, "ap242"), write_train=_step, write_body=_step
+    ),
     Format.STL: SolidFormat("facets within --chord-error", _stl, None, (*_FACETED, "carrier"), write_body=_stl),
     Format.THREE_MF: SolidFormat("facets, for printing", _3mf, _3mf, (*_FACETED, *_PLACED), write_train=_3mf, write_body=_3mf),
     Format.GLB: SolidFormat(

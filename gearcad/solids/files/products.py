@@ -40,9 +40,9 @@ class FileOptions:
     """Options of files; a format names the options that matter to it.
 
     `chord_error` (mm) bounds the facets; `bracket` puts a pair on two shafts with a bracket; `circles` draws the tip,
-    reference, base and root circles beside a section. Of a planetary train, `carrier` makes a carrier with pins, `exploded`
-    moves members apart along the axis, and `turning` lets the scene turn. Raises ParameterError for a chord error that is not
-    positive.
+    reference, base and root circles beside a section; `ap242` writes STEP in AP242 in place of AP214. Of a planetary train,
+    `carrier` makes a carrier with pins, `exploded` moves members apart along the axis, and `turning` lets the scene turn.
+    Raises ParameterError for a chord error that is not positive.
     """
 
     chord_error: float = 0.005
@@ -51,10 +51,11 @@ class FileOptions:
     carrier: bool = False
     exploded: bool = False
     turning: bool = False
+    ap242: bool = False
 
     def __post_init__(self) -> None:
         require_number("chord_error", self.chord_error, "mm", above=0)
-        for name in ("bracket", "circles", "carrier", "exploded", "turning"):
+        for name in ("bracket", "circles", "carrier", "exploded", "turning", "ap242"):
             require_switch(name, getattr(self, name))
 
 

@@ -1,4 +1,4 @@
-"""STEP files (ISO 10303-21, AP214, mm): named and coloured parts; equal bytes for equal input."""
+"""STEP files (ISO 10303-21, AP214 or AP242, mm): named and coloured parts; equal bytes for equal input."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from datetime import datetime
+from enum import Enum
 from io import BytesIO
 from itertools import count
 from pathlib import Path
@@ -49,7 +50,37 @@ eight.
 _TO_A_LINE = 12
 """Number of references in one line of a file."""
 
-_SCHEMA = "AUTOMOTIVE_DESIGN { 1 0 10303 214 1 1 1 1 }"
+
+class StepSchema(Enum):
+    """Application protocol of a file; solids, names, colours and assemblies are the same entities in both."""
+
+    AP214 = "AUTOMOTIVE_DESIGN { 1 0 10303 214 1 1 1 1 }"
+    AP242 = "AP242_MANAGED_MODEL_BASED_3D_ENGINEERING_MIM_LF { 1 0 10303 442 1 1 4 }"
+
+    @property
+    def context(self) -> str:
+        """Words of the application context."""
+        return _CONTEXTS[self][0]
+
+    @property
+    def protocol(self) -> str:
+        """Name and year of the protocol, as parameters of its definition."""
+        return _CONTEXTS[self][1]
+
+    @property
+    def of_kernel(self) -> str:
+        """Name that the CAD kernel has for it."""
+        return _CONTEXTS[self][2]
+
+
+_CONTEXTS = {
+    StepSchema.AP214: ("core data for automotive mechanical design processes", "'automotive_design',2000", "AP214IS"),
+    StepSchema.AP242: (
+        "managed model based 3d engineering",
+        "'ap242_managed_model_based_3d_engineering',2014",
+        "AP242DIS",
+    ),
+}
 
 _NO_DATE = datetime(2000, 1, 1)
 """Date in the header if none is set, so that files of equal input are equal."""
@@ -111,12 +142,10 @@ class DataSection:
         return "DATA;\n" + "".join(lines) + "ENDSEC;\n"
 
 
-def step_header(name: str) -> str:
-    """Return the header section of what is called `name`, in AP214: of nobody,
-    at SOURCE_DATE_EPOCH or else in the year 2000.
-    """
+def step_header(name: str, schema: StepSchema = StepSchema.AP214) -> str:
+    """Return the header section of what is called `name`: of nobody, at SOURCE_DATE_EPOCH or else in the year 2000."""
     stamp = (source_date() or _NO_DATE).strftime("%Y-%m-%dT%H:%M:%S")
-    of = [string(text) for text in (name, stamp, f"gearcad {__version__}", _SCHEMA)]
+    of = [string(text) for text in (name, stamp, f"gearcad {__version__}", schema.value)]
     return (
         "HEADER;\n"
         f"FILE_DESCRIPTION(({of[0]}),'2;1');\n"
@@ -388,7 +417,9 @@ _kernel = RLock()
 """Held while the kernel's global settings are changed."""
 
 
-def write_by_kernel(model: cadquery.Assembly | cadquery.Shape, path: Path | str, name: str) -> None:
+def write_by_kernel(
+    model: cadquery.Assembly | cadquery.Shape, path: Path | str, name: str, schema: StepSchema = StepSchema.AP214
+) -> None:
     """Write a shape, as one part called `name`, or an assembly, which has names of its own.
 
     Running numbers are fixed, and the header. Raises what `write_step` raises.
@@ -399,7 +430,7 @@ def write_by_kernel(model: cadquery.Assembly | cadquery.Shape, path: Path | str,
     from OCP.STEPControl import STEPControl_StepModelType
 
     names = _Names()
-    with _settings():
+    with _settings(schema):
         writer = STEPCAFControl_Writer()
         writer.SetColorMode(True)
         writer.SetNameMode(True)
@@ -410,7 +441,7 @@ def write_by_kernel(model: cadquery.Assembly | cadquery.Shape, path: Path | str,
         written = transferred and writer.WriteStream(stream) == IFSelect_RetDone
     if not written:
         raise SolverError(f"the CAD kernel could not write {path}")
-    header = step_header(model.name if assembled else name).encode("ascii")
+    header = step_header(model.name if assembled else name, schema).encode("ascii")
     content = names.put_into(_reproducible(stream.getvalue()))
     Path(path).write_bytes(_HEADER.sub(lambda _: header, content, count=1))
 
@@ -431,13 +462,13 @@ class _Names:
 
 
 @contextmanager
-def _settings() -> Iterator[None]:
+def _settings(schema: StepSchema) -> Iterator[None]:
     """The kernel's global settings of this module while it writes; afterwards the user's are back."""
     from OCP.Interface import Interface_Static
     from OCP.STEPCAFControl import STEPCAFControl_Controller
 
     numbers = {"write.surfacecurve.mode": 0, "write.precision.mode": 0}
-    texts = {"write.step.schema": "AP214IS", "xstep.cascade.unit": "MM", "write.step.unit": "MM"}
+    texts = {"write.step.schema": schema.of_kernel, "xstep.cascade.unit": "MM", "write.step.unit": "MM"}
     with _kernel:
         STEPCAFControl_Controller.Init_s()  # without a controller the settings do not exist yet
         before = {name: Interface_Static.IVal_s(name) for name in numbers}
@@ -488,8 +519,10 @@ _ASSEMBLED = 1e-6
 _WORLD = Frame((0.0, 0.0, 0.0), (0.0, 0.0, 1.0), (1.0, 0.0, 0.0))
 
 
-def write_step(model: cadquery.Assembly | cadquery.Solid, path: Path | str, *, name: str) -> None:
-    """Write a solid, as one part called `name`, or an assembly, which has names of its own, to `path` (STEP AP214, mm).
+def write_step(
+    model: cadquery.Assembly | cadquery.Solid, path: Path | str, *, name: str, schema: StepSchema = StepSchema.AP214
+) -> None:
+    """Write a solid, as one part called `name`, or an assembly, which has names of its own, to `path` (STEP, mm).
 
     What was made here is written as `write_product` has it, what was gone on with in CadQuery by the CAD kernel. Names may
     hold any character; the time stamp is that of `step_header`. Raises SolverError if the kernel cannot write, ParameterError
@@ -499,32 +532,32 @@ def write_step(model: cadquery.Assembly | cadquery.Solid, path: Path | str, *, n
 
     product = cad_product(model, name, BRIGHT_STEEL)
     if product is not None:
-        write_product(product, path)
+        write_product(product, path, schema)
         return
 
-    write_by_kernel(model, path, name)
+    write_by_kernel(model, path, name, schema)
 
 
-def write_product(product: Product, path: Path | str) -> None:
+def write_product(product: Product, path: Path | str, schema: StepSchema = StepSchema.AP214) -> None:
     """Write a part or an assembly to `path`. Names may hold any character; the time stamp is that of `step_header`.
 
     Numbers read back to the last bit. Curves in the parameters of surfaces are left out: readers make them again.
     """
-    writer = _StepWriter()
+    writer = _StepWriter(schema)
     writer.product(product)
-    text = f"ISO-10303-21;\n{step_header(product.name)}{writer.data.text()}END-ISO-10303-21;\n"
+    text = f"ISO-10303-21;\n{step_header(product.name, schema)}{writer.data.text()}END-ISO-10303-21;\n"
     Path(path).write_bytes(text.encode("ascii"))
 
 
 class _StepWriter:
     """Writes products, and what all products of a file share."""
 
-    def __init__(self) -> None:
+    def __init__(self, schema: StepSchema) -> None:
         self.data, self.number = DataSection(), count(1)
         self.made: dict[Product, tuple[int, int]] = {}
         add = self.data.add
-        self.application = add("APPLICATION_CONTEXT('core data for automotive mechanical design processes')")
-        add(f"APPLICATION_PROTOCOL_DEFINITION('international standard','automotive_design',2000,#{self.application})")
+        self.application = add(f"APPLICATION_CONTEXT('{schema.context}')")
+        add(f"APPLICATION_PROTOCOL_DEFINITION('international standard',{schema.protocol},#{self.application})")
         self.discipline = add(f"PRODUCT_CONTEXT('',#{self.application},'mechanical')")
         self.stage = add(f"PRODUCT_DEFINITION_CONTEXT('part definition',#{self.application},'design')")
         self.units = (
