@@ -14,7 +14,7 @@ class GearcadWorkbench(FreeCADGui.Workbench):
 
         import gearcad_commands
 
-        self.__class__.Icon = str(Path(gearcad_commands.__file__).with_name("gearcad.svg"))
+        self.__class__.Icon = str(Path(gearcad_commands.__file__).with_name("icons") / "gear.svg")
 
     def Initialize(self):
         """Register the commands; FreeCAD calls this before the workbench is shown for the first time."""

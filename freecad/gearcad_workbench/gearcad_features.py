@@ -31,7 +31,7 @@ class GearcadFeature:
         try:
             text = spec_text(feature)
             if self._shapes is None or self._shapes[0] != text:
-                design = _design(text, feature.Label)
+                design = design_of(feature)
                 self._shapes = text, design, shapes_of(design)
         except GearcadError as error:
             raise ValueError(str(error)) from None
@@ -39,8 +39,9 @@ class GearcadFeature:
         feature.Shape = posed(design, shapes, feature.Angle.Value if hasattr(feature, "Angle") else 0.0)
 
     def onDocumentRestored(self, feature):
-        """Forget shapes; FreeCAD calls this when a document has been opened."""
+        """Forget shapes, and give the view its task panel; FreeCAD calls this when a document has been opened."""
         self._shapes = None
+        _attach_view(feature)
 
     def __getstate__(self):
         return None
@@ -82,10 +83,17 @@ def spec_text(feature):
     return edit_spec(feature.Spec, changed) if changed else feature.Spec
 
 
-def _design(text, label):
+def design_of(feature):
+    """Return the design of a feature, as gearcad reads it from its spec. Raises ValueError, one line, for wrong input."""
+    prepare()
+    from gearcad.core.errors import GearcadError
     from gearcad.designs.reader import design_from_tables
 
-    return design_from_tables(tomllib.loads(text), where=lambda key: label, default_name=label)
+    label = feature.Label
+    try:
+        return design_from_tables(tomllib.loads(spec_text(feature)), where=lambda key: label, default_name=label)
+    except GearcadError as error:
+        raise ValueError(str(error)) from None
 
 
 def add_feature(kind, document=None, text=None):
@@ -103,9 +111,17 @@ def add_feature(kind, document=None, text=None):
     document = document or FreeCAD.ActiveDocument or FreeCAD.newDocument()
     feature = document.addObject("Part::FeaturePython", kind)
     GearcadFeature(feature, text)
-    if FreeCAD.GuiUp:
-        feature.ViewObject.Proxy = 0  # the view provider of Part
+    _attach_view(feature)
     return feature
+
+
+def _attach_view(feature):
+    """Give a feature its icon and task panel, if there is a window and it has none."""
+    if FreeCAD.GuiUp:
+        from gearcad_panel import GearcadView
+
+        if not isinstance(feature.ViewObject.Proxy, GearcadView):
+            GearcadView(feature.ViewObject)
 
 
 def open_spec(path, document=None):

@@ -21,6 +21,31 @@ SPECS = {
 }
 """The spec of a new feature by the name of its kind; a word is the name of one of gearcad's own specs."""
 
+_TEETH = "teeth normal_module face_width helix_angle profile_shift tooth_thinning"
+_PANELS = {
+    "gear": f"{_TEETH} rack.pressure_angle body.bore body.keyway body.end_chamfer",
+    "ring": f"{_TEETH} rack.pressure_angle cutter.teeth body.rim_diameter body.end_chamfer",
+    "pair": (
+        "pinion.teeth wheel.teeth normal_module face_width helix_angle centre_distance pinion.profile_shift "
+        "wheel.profile_shift pinion.body.bore wheel.body.bore"
+    ),
+    "rack": (
+        "teeth length normal_module face_width height helix_angle tip_alteration tooth_thinning rack.pressure_angle tip_chamfer"
+    ),
+    "rack_pair": (
+        "pinion.teeth rack.teeth normal_module face_width helix_angle mounting_distance pinion.profile_shift tooth_thinning "
+        "rack.height pinion.body.bore"
+    ),
+    "planetary": (
+        "sun.teeth planet.teeth ring.teeth planets normal_module face_width helix_angle sun.profile_shift "
+        "planet.profile_shift ring.body.rim_diameter"
+    ),
+    "spline": (
+        "designation standard nominal_diameter module teeth pressure_angle centring length shaft.bore hub.outer_diameter"
+    ),
+}
+"""The ten keys in the task panel of each kind of feature; those without a table are of the main table."""
+
 _LEFT_OUT = ("drawing", "making", "material", "pre_stage", "premachining", "carrier", "speeds")
 """Parts of tables without properties: a spec that has them keeps them."""
 
@@ -41,11 +66,15 @@ _OF_UNITS = {"mm": "App::PropertyDistance", "deg": "App::PropertyAngle"}
 
 
 class Key:
-    """One key of a spec and its property: `table` and `key` with dots, the `field` of the schema."""
+    """One key of a spec and its property: `table` and `key` with dots, the `field` of the schema.
+
+    `own` is whether the table is another than the main one of its kind.
+    """
 
     def __init__(self, table, key, field, main):
         self.dotted = f"{table}.{key}"
         self.field = field
+        self.own = table != main
         self.group = ".".join([table, *key.split(".")[:-1]])
         words = [] if table == main else table.split("_")
         words += [word for part in key.split(".") for word in part.split("_")]
@@ -172,3 +201,22 @@ def keys_of(tables):
                 names.add(made.name)
                 found.append(made)
     return found
+
+
+def panel_kind(tables):
+    """Return the word for the kind of design that the tables of a spec describe: "gear", "ring", "pair" and so on."""
+    from gearcad.designs.reader import kind_of
+
+    kind = kind_of(tables).value
+    return "ring" if kind == "gear" and tables["gear"].get("teeth", 1) < 0 else kind
+
+
+def panel_keys(tables):
+    """Return the ten keys in the task panel of the kind of design that the tables of a spec describe."""
+    from gearcad.designs.keys import MAIN_TABLES
+    from gearcad.designs.reader import kind_of
+
+    main = MAIN_TABLES[kind_of(tables)][0]
+    by_name = {key.dotted: key for key in keys_of(tables)}
+    found = [by_name.get(f"{main}.{key}") or by_name.get(key) for key in _PANELS[panel_kind(tables)].split()]
+    return [key for key in found if key is not None]

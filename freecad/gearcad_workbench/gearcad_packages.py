@@ -13,8 +13,8 @@ FOLDER = Path(__file__).resolve().parent / "packages"
 MISSING = f"gearcad cannot be loaded: {{}}. Install it and the packages of packages.txt into {FOLDER}; see docs/freecad.md"
 
 
-def prepare():
-    """Make `import gearcad` possible. Raises ImportError, one line, where a package is missing."""
+def prepare(drawings=False):
+    """Make `import gearcad` possible, and its `drawings`. Raises ImportError, one line, where a package is missing."""
     if str(FOLDER) not in sys.path:
         sys.path.append(str(FOLDER))
     _complete_lazy_loader()
@@ -22,6 +22,10 @@ def prepare():
         import tomlkit  # noqa: F401
 
         import gearcad.designs.reader  # noqa: F401
+
+        if drawings:
+            import ezdxf  # noqa: F401
+            import fontTools.ttLib  # noqa: F401
     except ImportError as error:
         raise ImportError(MISSING.format(error)) from None
 

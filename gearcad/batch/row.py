@@ -12,7 +12,7 @@ import socket
 import time
 import uuid
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from enum import Enum
 from functools import cache
@@ -119,11 +119,14 @@ def publish(staging: Path, folder: Path, manifest: Manifest, before: Manifest | 
     last that they are all there. Files that are not gearcad's stay. Raises OSError, OutputError where another process holds
     the lock of the folder.
     """
-    (staging / MANIFEST).write_text(manifest.text(), encoding="utf-8")
+    (staging / MANIFEST).write_text(manifest.text(), encoding="utf-8", newline="\n")
     if not folder.exists():
-        with suppress(FileExistsError):  # made meanwhile by a run that was killed, and is dying
+        try:
             staging.rename(folder)
             return
+        except OSError as error:  # made meanwhile by a run that was killed, and is dying
+            if error.errno not in (errno.EEXIST, errno.ENOTEMPTY):
+                raise
     with locked(folder):
         _replace_files(staging, folder, manifest, before)
 
@@ -144,7 +147,7 @@ def _replace_files(staging: Path, folder: Path, manifest: Manifest, before: Mani
 
 def _replace_manifest(staging: Path, folder: Path, manifest: Manifest) -> None:
     interim = staging / f"{MANIFEST}.interim"
-    interim.write_text(manifest.text(), encoding="utf-8")
+    interim.write_text(manifest.text(), encoding="utf-8", newline="\n")
     interim.replace(folder / MANIFEST)
 
 

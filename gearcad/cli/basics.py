@@ -108,7 +108,7 @@ def _write_new(path: Path, text: str, force: bool) -> None:
 
     require_new_file(path, force)
     with staged_files(path.parent) as staging:
-        (staging / path.name).write_text(text, encoding="utf-8")
+        (staging / path.name).write_text(text, encoding="utf-8", newline="\n")
 
 
 @click.command("open")

@@ -109,7 +109,9 @@ def _faults() -> Iterator[str]:
     """Yield a line for each installed module that a missing library of the system keeps from being loaded."""
     for module in _BINARY:
         if installed(module.partition(".")[0]):
-            tried = subprocess.run([sys.executable, "-c", f"import {module}"], capture_output=True, text=True, check=False)
+            tried = subprocess.run(
+                [sys.executable, "-c", f"import {module}"], capture_output=True, encoding="utf-8", errors="replace", check=False
+            )
             if tried.returncode:
                 why = (tried.stderr.strip().splitlines() or ["no reason given"])[-1]
                 yield f"{module.partition('.')[0]} is installed but cannot be loaded: {why}"

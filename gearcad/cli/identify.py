@@ -183,7 +183,7 @@ def _identify_spline(given: Measurements, count: int, number: int, write: Path |
         keys = {"name": write.stem, "designation": found.candidates[number - 1].designation}
         text = toml_text({"spline": keys}, ["identified from measurements, without a tolerance class"])
         with staged_files(write.parent) as staging:
-            (staging / write.name).write_text(text, encoding="utf-8")
+            (staging / write.name).write_text(text, encoding="utf-8", newline="\n")
     if as_json:
         click.echo(json_text(with_summary(found.to_dict())), nl=False)
     else:
@@ -267,4 +267,4 @@ def _write(found: Identification, chosen: Candidate, path: Path) -> None:
     from gearcad.designs.spec_writers import identified_text
 
     with staged_files(path.parent) as staging:
-        (staging / path.name).write_text(identified_text(found, chosen, path.stem), encoding="utf-8")
+        (staging / path.name).write_text(identified_text(found, chosen, path.stem), encoding="utf-8", newline="\n")

@@ -188,8 +188,10 @@ def _verify_table(
         now = read_figures(folder / RESULTS) if baseline_of_table else _figures(documents)
     moved = _moved(before, now, documents, tolerance)
     with staged_files(folder) as staging:
-        (staging / "junit.xml").write_text(junit_xml(documents, summary.errors), encoding="utf-8")
-        (staging / "index.html").write_text(verification_index(table.stem, documents, summary.errors, moved), encoding="utf-8")
+        (staging / "junit.xml").write_text(junit_xml(documents, summary.errors), encoding="utf-8", newline="\n")
+        (staging / "index.html").write_text(
+            verification_index(table.stem, documents, summary.errors, moved), encoding="utf-8", newline="\n"
+        )
     if junit is not None:
         _write_junit(junit, documents, summary.errors)
     report_summary(summary, time.perf_counter() - began, as_json=as_json, quiet=quiet)
@@ -223,7 +225,7 @@ def _write_junit(path: Path, documents: Iterable[dict[str, Any]], errors: Iterab
 
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(junit_xml(documents, errors), encoding="utf-8")
+        path.write_text(junit_xml(documents, errors), encoding="utf-8", newline="\n")
     except OSError as error:
         raise OutputError("junit", str(path), f"cannot be written ({error.strerror})") from error
 

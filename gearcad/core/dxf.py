@@ -93,7 +93,7 @@ def ezdxf() -> ModuleType:
     with _global_options, TemporaryDirectory(prefix="gearcad-") as folder:
         fonts = Path(folder, "ezdxf", "font_manager_cache.json")
         fonts.parent.mkdir()
-        fonts.write_text(json.dumps({"version": 2, "font-faces": []}), encoding="ascii")
+        fonts.write_text(json.dumps({"version": 2, "font-faces": []}), encoding="ascii", newline="\n")
         before = os.environ.get(_CACHE)
         os.environ[_CACHE] = folder
         try:

@@ -402,7 +402,9 @@ LONGEST_NAME = 100
 LONGEST_NAME_IN_BYTES = 200
 """Greatest length of a name in bytes of UTF-8, with room for suffixes of the files beside the folder."""
 
-_RESERVED = {"CON", "PRN", "AUX", "NUL", *(f"{port}{number}" for port in ("COM", "LPT") for number in range(1, 10))}
+_RESERVED = {"CON", "PRN", "AUX", "NUL", "CONIN$", "CONOUT$"} | {
+    f"{port}{digit}" for port in ("COM", "LPT") for digit in "0123456789¹²³"
+}
 
 
 class Described(Protocol):

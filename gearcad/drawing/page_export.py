@@ -164,7 +164,7 @@ _DECIMALS = 3
 
 def write_svg(document: Drawing, path: Path) -> None:
     """Write a document as SVG; each of its layers is a group."""
-    path.write_text("\n".join(_lines(document)) + "\n", encoding="utf-8")
+    path.write_text("\n".join(_lines(document)) + "\n", encoding="utf-8", newline="\n")
 
 
 def _lines(document: Drawing) -> Iterator[str]:

@@ -231,7 +231,7 @@ def specs_of(result: Study) -> dict[str, str]:
 
 
 def _write_text(text: str, path: Path) -> None:
-    path.write_text(text, encoding="utf-8")
+    path.write_text(text, encoding="utf-8", newline="\n")
 
 
 def _write_report(study: Study, head: Mapping[str, str], path: Path) -> None:

@@ -120,7 +120,7 @@ class Job(ABC, Generic[Accepted, Result]):
 
     def write_document(self, result: Result, path: Path) -> None:
         """Write what VERB.json holds."""
-        path.write_text(json_text(self.complete_document(result)), encoding="utf-8")
+        path.write_text(json_text(self.complete_document(result)), encoding="utf-8", newline="\n")
 
     def write(self, result: Result, folder: Path | str, progress: Progress | None = None) -> list[Path]:
         """Write all files of a result into `folder`, or none, and return their paths. Raises OutputError."""

@@ -118,7 +118,7 @@ def _specs(result: Studied) -> Iterator[tuple[str, Writer]]:
 
 
 def _write_text(text: str, path: Path) -> None:
-    path.write_text(text, encoding="utf-8")
+    path.write_text(text, encoding="utf-8", newline="\n")
 
 
 @overload

@@ -41,13 +41,13 @@ def write_sizing(result: Sizing, folder: Path) -> list[Path]:
     with staged_files(folder, sometimes=_EVERY) as staging:
         if (best := result.best) is not None:
             write_pairs(result, staging / _TABLE)
-            (staging / _BEST).write_text(pair_spec(best), encoding="utf-8")
+            (staging / _BEST).write_text(pair_spec(best), encoding="utf-8", newline="\n")
             write_front(result, staging / _FRONT)
             save_front(result, staging / _PICTURE)
             if own := _own_tools(result.task, folder):
                 names = [*names, TOOLS]
                 write_tool_table(own, staging / TOOLS)
-        (staging / _DOCUMENT).write_text(json_text(size_document(result)), encoding="utf-8")
+        (staging / _DOCUMENT).write_text(json_text(size_document(result)), encoding="utf-8", newline="\n")
     return [folder / name for name in names]
 
 
@@ -134,8 +134,8 @@ def write_set_sizes(result: SizedSets, folder: Path) -> list[Path]:
     with staged_files(folder) as staging:
         best = result.found[0]
         write_sized_sets(result, staging / _SET_SIZES_TABLE)
-        (staging / _SET_SIZES_BEST).write_text(set_spec(result.task, best), encoding="utf-8")
-        (staging / _SET_SIZES_DOCUMENT).write_text(json_text(size_document(result)), encoding="utf-8")
+        (staging / _SET_SIZES_BEST).write_text(set_spec(result.task, best), encoding="utf-8", newline="\n")
+        (staging / _SET_SIZES_DOCUMENT).write_text(json_text(size_document(result)), encoding="utf-8", newline="\n")
     return [folder / name for name in (_SET_SIZES_TABLE, _SET_SIZES_BEST, _SET_SIZES_DOCUMENT)]
 
 

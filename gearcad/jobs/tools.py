@@ -289,7 +289,7 @@ def write_tools(result: ShelfTools | ToolChoices, folder: Path) -> list[Path]:
     if not listed:
         raise ParameterError("output", str(folder), "must be left out: no tool of the shelf would cut these gears")
     with staged_files(folder) as staging:
-        (staging / "tools.json").write_text(json_text(with_summary(result.to_dict())), encoding="utf-8")
+        (staging / "tools.json").write_text(json_text(with_summary(result.to_dict())), encoding="utf-8", newline="\n")
         write_tool_table(listed, staging / FILE)
     return [folder / "tools.json", folder / FILE]
 

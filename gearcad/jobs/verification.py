@@ -188,7 +188,7 @@ _EVIDENCE = ("verify.html", "verify.pdf", "verify.json")
 
 
 def _write_page(document: dict[str, Any], result: Verification, path: Path) -> None:
-    path.write_text(verification_html(document, result.heading, result.pictured), encoding="utf-8")
+    path.write_text(verification_html(document, result.heading, result.pictured), encoding="utf-8", newline="\n")
 
 
 def _write_pdf(document: dict[str, Any], result: Verification, path: Path) -> None:

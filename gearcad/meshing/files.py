@@ -490,12 +490,12 @@ def write_xdmf(mesh: ElementMesh, path: Path) -> None:
     with h5py.File(path.with_suffix(".h5"), "w") as store:
         points = _stored(store, "points", mesh.points)
         parts = _page(store, points, mesh.element.value, mesh.cells, "part", part_numbers(mesh), mesh.parts, shape.dimension)
-        path.write_text(parts, "utf-8")
+        path.write_text(parts, encoding="utf-8", newline="\n")
         if mesh.sides:
             faces = [mesh.face_cells(name) for name in mesh.sides]
             numbers = np.repeat(np.arange(1, len(faces) + 1), [len(each) for each in faces])
             sides = _page(store, points, shape.face, np.concatenate(faces), "side", numbers, mesh.sides, shape.dimension - 1)
-            path.with_name(f"{path.stem}_sides{path.suffix}").write_text(sides, "utf-8")
+            path.with_name(f"{path.stem}_sides{path.suffix}").write_text(sides, encoding="utf-8", newline="\n")
 
 
 def _page(

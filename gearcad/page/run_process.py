@@ -338,7 +338,7 @@ def _bound() -> None:
         resource.setrlimit(resource.RLIMIT_FSIZE, (_LARGEST_FILE, _LARGEST_FILE))
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     with suppress(OSError):  # Linux only
-        Path("/proc/self/oom_score_adj").write_text("1000", encoding="ascii")
+        Path("/proc/self/oom_score_adj").write_text("1000", encoding="ascii", newline="\n")
 
 
 def _outcome(run: Callable[[RunRequest, Teller], dict[str, Any]], asked: RunRequest, tell: Teller) -> Mapping[str, Any]:

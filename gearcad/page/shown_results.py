@@ -39,7 +39,7 @@ _DIGITS = 4
 
 def write_shown(content: JsonObject, folder: Path) -> None:
     """Write what the page shows of a run into the folder of the run."""
-    (folder / FILE).write_text(json.dumps(content, allow_nan=False), encoding="utf-8")
+    (folder / FILE).write_text(json.dumps(content, allow_nan=False), encoding="utf-8", newline="\n")
 
 
 def read_shown(folder: Path) -> JsonObject | None:

@@ -104,7 +104,7 @@ def write_stiffness_report(
     comparison: StiffnessComparison, design_name: str, path: Path, head: Mapping[str, str] | None = None
 ) -> None:
     """Write the report of a comparison of the design's pair to `path`; the same comparison gives the same bytes."""
-    path.write_text(stiffness_html(comparison, design_name, head), encoding="utf-8")
+    path.write_text(stiffness_html(comparison, design_name, head), encoding="utf-8", newline="\n")
 
 
 def stiffness_html(comparison: StiffnessComparison, design_name: str, head: Mapping[str, str] | None = None) -> str:
@@ -582,7 +582,7 @@ class SolidSections(CheckSections[SolidCheck]):
 
 def write_report(result: CheckResult, design_name: str, path: Path, head: Mapping[str, str] | None = None) -> None:
     """Write the report of a check of the design to `path`; the same result gives the same bytes."""
-    path.write_text(report_html(result, design_name, head), encoding="utf-8")
+    path.write_text(report_html(result, design_name, head), encoding="utf-8", newline="\n")
 
 
 def report_html(result: CheckResult, design_name: str, head: Mapping[str, str] | None = None) -> str:

@@ -272,7 +272,7 @@ def write_dynamics_report(
     head: Mapping[str, str] | None = None,
 ) -> None:
     """Write the report of a study of the design `name` to `path`; the same study gives the same bytes."""
-    path.write_text(dynamics_html(study, name, head), encoding="utf-8")
+    path.write_text(dynamics_html(study, name, head), encoding="utf-8", newline="\n")
 
 
 @singledispatch

@@ -549,7 +549,7 @@ _MISSING = "not-computed"
 
 def write_planetary_report(study: PlanetaryStudy, name: str, path: Path, head: Mapping[str, str] | None = None) -> None:
     """Write the report of a study of the design `name` to `path`; the same study gives the same bytes."""
-    path.write_text(planetary_html(study, name, head), encoding="utf-8")
+    path.write_text(planetary_html(study, name, head), encoding="utf-8", newline="\n")
 
 
 def planetary_html(study: PlanetaryStudy, name: str, head: Mapping[str, str] | None = None) -> str:

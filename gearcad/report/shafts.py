@@ -32,7 +32,7 @@ class ReportedShaft(NamedTuple):
 
 def write_shafts_report(result: ArrangementResult, design_name: str, path: Path, head: Mapping[str, str] | None = None) -> None:
     """Write the report of a design's shafts to `path`; the same result gives the same bytes."""
-    path.write_text(shafts_html(result, design_name, head), encoding="utf-8")
+    path.write_text(shafts_html(result, design_name, head), encoding="utf-8", newline="\n")
 
 
 def shafts_html(result: ArrangementResult, design_name: str, head: Mapping[str, str] | None = None) -> str:

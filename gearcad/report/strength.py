@@ -192,7 +192,7 @@ def _text(value: Any) -> str:
 
 def write_rate_report(rating: StrengthRating, design_name: str, path: Path, head: Mapping[str, str] | None = None) -> None:
     """Write the report of the rating of a design's pair to `path`; the same rating gives the same bytes."""
-    path.write_text(rate_html(rating, design_name, head), encoding="utf-8")
+    path.write_text(rate_html(rating, design_name, head), encoding="utf-8", newline="\n")
 
 
 def rate_html(rating: StrengthRating, design_name: str, head: Mapping[str, str] | None = None) -> str:

@@ -57,7 +57,7 @@ def calculix_version() -> str:
     """Return the version of CalculiX that is installed, "" without one."""
     if missing():
         return ""
-    run = subprocess.run([_PROGRAM, "-v"], capture_output=True, text=True, timeout=60, check=False)
+    run = subprocess.run([_PROGRAM, "-v"], capture_output=True, encoding="utf-8", errors="replace", timeout=60, check=False)
     found = re.search(r"\d+\.\d+", run.stdout)
     return found[0] if found else ""
 
@@ -91,7 +91,14 @@ def _run(job: Path, time_limit: float) -> str:
     threads = {**os.environ, "OMP_NUM_THREADS": "1"}
     try:
         run = subprocess.run(
-            [_PROGRAM, job.name], cwd=job.parent, capture_output=True, text=True, timeout=time_limit, env=threads, check=False
+            [_PROGRAM, job.name],
+            cwd=job.parent,
+            capture_output=True,
+            encoding="utf-8",
+            errors="replace",
+            timeout=time_limit,
+            env=threads,
+            check=False,
         )
     except subprocess.TimeoutExpired:
         return f"CalculiX did not come to an end in {time_limit:g} s"

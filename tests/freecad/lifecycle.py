@@ -15,6 +15,7 @@ import Part
 
 FOLDER = Path(os.environ["WORKBENCH_TEST"])
 FILLET_RADIUS = 0.5
+POCKET_RADIUS, POCKET_DEPTH = 1.5, 4.0
 
 
 def volume_in(name):
@@ -106,6 +107,80 @@ def single_gear():
     (opened,) = set(FreeCAD.listDocuments()) - before
     found["opened"] = [(each.Name, each.Teeth, each.isValid()) for each in FreeCAD.getDocument(opened).Objects]
     return found | {"built": {name: volume_in(f"{name}.step") for name in ("20", "31", "helical")}}
+
+
+def part_design_body():
+    """Return volumes and places of a gear in a body of PartDesign, with a fillet and a pocket, at 20 and at 31 teeth."""
+    from gearcad_features import add_feature
+
+    document = FreeCAD.newDocument("body")
+    gear = add_feature("Gear", document)
+    document.recompute()
+    body = document.addObject("PartDesign::Body", "Body")
+    body.BaseFeature = gear
+    document.recompute()
+    (base,) = body.Group
+    top = end_faces(base.Shape)[20.0]
+    sketch = body.newObject("Sketcher::SketchObject", "Sketch")
+    sketch.Support = [(base, f"Face{top}")]
+    sketch.MapMode = "FlatFace"
+    sketch.addGeometry(Part.Circle(FreeCAD.Vector(0, 11, 0), FreeCAD.Vector(0, 0, 1), POCKET_RADIUS), False)
+    pocket = body.newObject("PartDesign::Pocket", "Pocket")
+    pocket.Profile = sketch
+    pocket.Length = POCKET_DEPTH
+    document.recompute()
+    fillet = body.newObject("PartDesign::Fillet", "Fillet")
+    fillet.Base = (pocket, [f"Edge{number}" for number in bore_edges(pocket.Shape)])
+    fillet.Radius = FILLET_RADIUS
+    found = {}
+    for teeth in (20, 31):
+        gear.Teeth = teeth
+        document.recompute()
+        found[teeth] = {
+            "valid": [each.isValid() for each in (gear, base, sketch, pocket, fillet)] + [body.Shape.isValid()],
+            "gear": gear.Shape.Volume,
+            "pocket": gear.Shape.Volume - pocket.Shape.Volume,
+            "fillet": pocket.Shape.Volume - fillet.Shape.Volume,
+            "sketch": sketch.Placement.Base.z,
+            "edges": [fillet.Base[1], bore_edges(pocket.Shape)],
+        }
+    return found
+
+
+def documents():
+    """Return the numbers in the data sheet of a pair and of a gear, and what is on the pages with their drawings."""
+    from gearcad_documents import add_data_sheet, add_drawing
+    from gearcad_features import add_feature
+
+    document = FreeCAD.newDocument("documents")
+    found = {}
+    for kind, names in (
+        ("Pair", ("pinion_tip_diameter", "wheel_tip_diameter", "pair_centre_distance", "pair_transverse_contact_ratio")),
+        ("Gear", ("gear_tip_diameter", "gear_base_diameter", "gear_span_teeth", "gear_transverse_pressure_angle")),
+    ):
+        feature = add_feature(kind, document)
+        document.recompute()
+        add_data_sheet(feature)
+        sheet = add_data_sheet(feature)
+        values = [sheet.get(name) for name in names]
+        pages = add_drawing(feature)
+        document.recompute()
+        found[kind] = {
+            "numbers": {name: getattr(value, "Value", value) for name, value in zip(names, values, strict=True)},
+            "texts": [sheet.get(cell) for cell in ("A1", "A5", "B5", "D5")],
+            "pages": [[page.Label, page.Template.Width.Value, page.Template.Height.Value] for page in pages],
+            "symbols": [page.Views[0].Symbol for page in pages],
+        }
+        if kind == "Gear":  # the numbers are there for expressions
+            box = document.addObject("Part::Box", "Box")
+            box.setExpression("Length", f"{sheet.Name}.gear_tip_diameter")
+            feature.Teeth = 31
+            add_data_sheet(feature)
+            add_drawing(feature)
+            document.recompute()
+            found["box"] = box.Length.Value
+    found["count"] = {kind: len(document.findObjects(kind)) for kind in ("Spreadsheet::Sheet", "TechDraw::DrawPage")}
+    return found
 
 
 def mesh_of_pair():

@@ -1,9 +1,7 @@
 """The FreeCAD workbench in FreeCAD without a window; skipped where there is no FreeCAD."""
 
-import importlib.util
 import json
 import math
-import os
 import runpy
 import shutil
 import subprocess
@@ -13,35 +11,21 @@ from itertools import pairwise
 from pathlib import Path
 from random import Random
 from typing import Any
+from xml.etree import ElementTree
 
 import pytest
+from support.freecad import WORKBENCH, freecad_environment, install_workbench
 
 import gearcad
 from gearcad.designs.reader import starter_text
 
-ROOT = Path(__file__).parents[2]
-WORKBENCH = ROOT / "freecad" / "gearcad_workbench"
 FREECAD = shutil.which("freecadcmd") or shutil.which("FreeCADCmd")
 SAME_VOLUME = 1e-9
 """Relative: both are integrals of one kernel over the same surfaces."""
 
 FILLET_RADIUS, BORE_RADIUS = 0.5, 6.0
+POCKET_RADIUS, POCKET_DEPTH = 1.5, 4.0
 COMMENTED = "[gear]\nteeth = 22  # of the second stage\nnormal_module = 1.5\nface_width = 9.0\n"
-
-
-def install_workbench(home: Path) -> None:
-    """Install the workbench as its manual says, with links to gearcad and to the packages of packages.txt."""
-    mod = home / ".local" / "share" / "FreeCAD" / "Mod" / "gearcad_workbench"
-    shutil.copytree(WORKBENCH, mod, ignore=shutil.ignore_patterns("packages", "__pycache__"))
-    packages = mod / "packages"
-    packages.mkdir()
-    (packages / "gearcad").symlink_to(Path(gearcad.__file__).resolve().parent)
-    (packages / "templates").symlink_to(ROOT / "templates")
-    for line in (WORKBENCH / "packages.txt").read_text(encoding="utf-8").splitlines():
-        if not line.startswith("#"):
-            spec = importlib.util.find_spec(line.partition(">=")[0])
-            assert spec is not None and spec.origin is not None
-            (packages / spec.name).symlink_to(Path(spec.origin).parent)
 
 
 def gear_text(teeth: int, more: str = "") -> str:
@@ -61,8 +45,7 @@ def run_freecad(folder: Path, texts: dict[str, str], parts: str) -> dict[str, An
         shutil.copy(steps.get("assembly") or next(iter(steps.values())), folder / f"{name}.step")
     home = folder / "home"
     install_workbench(home)
-    environment = {key: value for key, value in os.environ.items() if not key.startswith(("PYTHON", "XDG_"))}
-    environment |= {"HOME": str(home), "WORKBENCH_TEST": str(folder), "WORKBENCH_PARTS": parts}
+    environment = freecad_environment(home, WORKBENCH_TEST=str(folder), WORKBENCH_PARTS=parts)
     script = Path(__file__).with_name("lifecycle.py")
     subprocess.run([FREECAD, str(script)], env=environment, capture_output=True, timeout=1200, check=False, cwd=folder)
     found: dict[str, Any] = json.loads((folder / "figures.json").read_text(encoding="utf-8"))
@@ -95,16 +78,55 @@ def test_gear_is_changed_saved_and_reopened(tmp_path):
 
 
 def _require_body_unchanged(gear: dict[str, Any]) -> None:
-    """Compare the fillet with Pappus: a corner between two sides and a quarter of a circle, turned about the axis."""
-    area = (1 - math.pi / 4) * FILLET_RADIUS**2
-    centroid = BORE_RADIUS + FILLET_RADIUS * (10 - 3 * math.pi) / (3 * (4 - math.pi))
     for step in ("20", "31", "reopened", "helical"):
         found = gear[step]
         assert found["valid"] == [True, True, True], step
-        assert found["removed"] == pytest.approx(2 * math.pi * centroid * area, rel=1e-6), step
+        assert found["removed"] == pytest.approx(_fillet_volume(), rel=1e-6), step
         assert (found["edges"], found["ends"]) == (gear["20"]["edges"], gear["20"]["ends"]), step
         assert found["sketch"][2:] == pytest.approx([20.0, 1.0]), step
     assert gear["31"]["faces"] - gear["20"]["faces"] == 11 * (gear["20"]["faces"] - 3) / 20  # bore and two ends are no teeth
+
+
+def _fillet_volume() -> float:
+    """Return the volume (mm³) of a fillet by Pappus: a corner between two sides and a quarter of a circle, about the axis."""
+    area = (1 - math.pi / 4) * FILLET_RADIUS**2
+    centroid = BORE_RADIUS + FILLET_RADIUS * (10 - 3 * math.pi) / (3 * (4 - math.pi))
+    return 2 * math.pi * centroid * area
+
+
+def test_gear_in_a_body_of_part_design(tmp_path):
+    """The pocket is a cylinder, the fillet a ring by Pappus: neither knows of teeth."""
+    found = run_freecad(tmp_path, {"31": gear_text(31)}, "part_design_body")["part_design_body"]
+    for teeth, state in found.items():
+        assert state["valid"] == [True] * 6, teeth
+        assert state["pocket"] == pytest.approx(math.pi * POCKET_RADIUS**2 * POCKET_DEPTH, rel=1e-6), teeth
+        assert state["fillet"] == pytest.approx(_fillet_volume(), rel=1e-6), teeth
+        assert state["sketch"] == pytest.approx(20.0), teeth
+        assert state["edges"] == found["20"]["edges"], teeth
+    assert found["31"]["gear"] / found["20"]["gear"] > 2.0
+
+
+def test_data_sheet_and_drawing(tmp_path):
+    found = run_freecad(tmp_path, {}, "documents")["documents"]
+    pair, gear = found["Pair"], found["Gear"]
+    radii = [(2 * teeth / 2, 2 * teeth / 2 * math.cos(math.radians(20)), 2 * teeth / 2 + 2) for teeth in (20, 41)]
+    contact = sum(math.sqrt(tip**2 - base**2) - math.sqrt(pitch**2 - base**2) for pitch, base, tip in radii)
+    ratio = contact / (2 * math.pi * math.cos(math.radians(20)))
+    by_hand = {"pinion_tip_diameter": 44.0, "wheel_tip_diameter": 86.0, "pair_centre_distance": 61.0}
+    assert pair["numbers"] == pytest.approx(by_hand | {"pair_transverse_contact_ratio": ratio}, abs=1e-9)
+    base = 40.0 * math.cos(math.radians(20.0))
+    by_hand = {"gear_tip_diameter": 44.0, "gear_base_diameter": base, "gear_span_teeth": 3}
+    assert gear["numbers"] == pytest.approx(by_hand | {"gear_transverse_pressure_angle": 20.0}, abs=1e-9)
+    assert pair["texts"] == ["Pair: spur pair, z = 20 / 41", "number of teeth", "z", "20"]
+    pages = [f"Drawing of Pair, {name}" for name in ("assembly", "pinion", "wheel")]
+    assert pair["pages"] == [[page, 420.0, 297.0] for page in pages]
+    assert gear["pages"] == [["Drawing of Gear, gear", 420.0, 297.0]]
+    for symbol in pair["symbols"] + gear["symbols"]:
+        size = ElementTree.fromstring(symbol).attrib
+        assert (float(size["width"]), float(size["height"])) == pytest.approx((420 * 96 / 25.4, 297 * 96 / 25.4), abs=1e-3)
+    assert ">⌀44<" in gear["symbols"][0]
+    assert found["box"] == pytest.approx(66.0)  # 31 teeth
+    assert found["count"] == {"Spreadsheet::Sheet": 2, "TechDraw::DrawPage": 4}
 
 
 STARTERS = ("spur", "reducer-21-43", "double-23-81", "ring-22-70", "rack", "planetary-24-21-66", "spline")
