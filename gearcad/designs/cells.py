@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 from gearcad.core.errors import ParameterError, SpecError, shown
 from gearcad.core.shelf_tables import column_letter
-from gearcad.designs.keys import MAIN_TABLES, OF_SETS, SPEEDS, Cell, DesignKind
+from gearcad.designs.keys import GEARBOX_FILE, MAIN_TABLES, OF_SETS, SPEEDS, Cell, DesignKind
 from gearcad.designs.shaft_keys import explain_unknown_item, is_of_list, is_of_shaft_alone, shaft_field
 from gearcad.designs.train_keys import (
     COLUMNS,
@@ -279,6 +279,8 @@ def kinds_of(keys: Iterable[str]) -> set[DesignKind]:
     A pinion may have a wheel or a rack.
     """
     keys = tuple(keys)
+    if GEARBOX_FILE in keys:
+        return {DesignKind.GEARBOX}
     owners = {key.partition(".")[0] for key in keys}
     planetary = {"planetary", *OF_SETS}
     paired = bool(owners & {"pair", "pinion"})
@@ -317,6 +319,8 @@ def read_headings(cells: Sequence[RawCell], where: str) -> tuple[str, ...]:
     kinds = kinds_of(map(_placed, dotted))
     if any(heading in _OF_SPLINES_ALONE for heading in headings):
         kinds = {DesignKind.SPLINE}
+    if GEARBOX_FILE.partition(".")[2] in headings or GEARBOX_FILE in headings:
+        kinds = {DesignKind.GEARBOX}
     places: dict[str, int] = {}
     columns, faults = [], []
     for index, heading in enumerate(headings):
@@ -351,6 +355,8 @@ def _key_of(heading: str, kinds: set[DesignKind]) -> tuple[str, str]:
         return heading, ""
     if heading in ("pair.name", "gear.name", "rack.name", "train.name", "planetary.name"):
         return "", "is the name of the design; write name"
+    if DesignKind.GEARBOX in kinds:
+        return heading if heading.startswith(f"{_MAIN}.") else f"{_MAIN}.{heading}", ""
     if DesignKind.TRAIN in kinds:
         return _key_of_train(heading, kinds)
     if DesignKind.PLANETARY in kinds:

@@ -18,7 +18,7 @@ from gearcad.core.errors import ParameterError, SpecError, format_number, shown,
 from gearcad.core.output import file_bytes
 from gearcad.core.records import JsonObject, Notice, concise, texts
 from gearcad.core.shelf_tables import ShelfName
-from gearcad.designs.keys import DesignKind
+from gearcad.designs.keys import GEARBOX_FILE, DesignKind
 from gearcad.geometry import Gear
 from gearcad.geometry.tool_shelf import ToolName
 from gearcad.geometry.tool_tables import FILE as TOOLS
@@ -148,7 +148,7 @@ def names_file(key: str) -> bool:
     """Return whether a text under a key is a file: a template, a blank, a mesh's pair, a shaft's layout, a torque's curve."""
     table, _, rest = key.partition(".")
     name, _, field = rest.rpartition(".")
-    if key in (_TEMPLATE, _BLANK) or key.endswith(f".{_BLANK}"):
+    if key in (_TEMPLATE, _BLANK, GEARBOX_FILE) or key.endswith(f".{_BLANK}"):
         return True
     return (table, field) in _FILES_OF_TRAINS and bool(name)
 

@@ -2,14 +2,25 @@
 
 from __future__ import annotations
 
+import re
+import tomllib
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any, ClassVar, NamedTuple, Self, TypeVar
 
 from gearcad.core.errors import InputError, SpecError, format_number, shown
 from gearcad.core.records import JsonObject
-from gearcad.designs.design import Described, Design, Where
-from gearcad.designs.keys import GEAR_FIELDS, OF_GEARBOXES, PARTS, SHARED, DesignKind, nearest_of
+from gearcad.designs.design import Described, Design, Where, read_tables
+from gearcad.designs.keys import (
+    GEAR_FIELDS,
+    GEARBOX_FILE,
+    OF_GEARBOXES,
+    PARTS,
+    SHARED,
+    DesignKind,
+    is_gearbox,
+    nearest_of,
+)
 from gearcad.designs.spec import AUTO, CLEAR, Given, Spec, entries
 from gearcad.geometry import Gear, GearPair
 from gearcad.planetary.gearbox import Gearbox, GearboxShaft, GearboxState
@@ -100,6 +111,62 @@ class PlanetaryGearboxDesign(Design):
     def to_dict(self) -> JsonObject:
         """Return the document of `data.json`: sets with their teeth, joined members, input and output, states."""
         return {**super().to_dict(), "planetary": self.gearbox.to_dict()}
+
+
+def gearbox_of_row(values: Mapping[str, Any], where: Where, default_name: str) -> PlanetaryGearboxDesign:
+    """Return the gearbox of a row of a design table: that of the spec under `gearbox`, with the values of the row in it.
+
+    A value is a number, a text, or a list or table in TOML, such as [["r.carrier"]]. Raises SpecError.
+    """
+    path = values.get(GEARBOX_FILE)
+    if not isinstance(path, str):
+        raise SpecError(f"{where(GEARBOX_FILE)}: {GEARBOX_FILE} is missing: the spec of a gearbox", GEARBOX_FILE)
+    tables, where_in_spec = read_tables(path)
+    if not is_gearbox(tables):
+        raise SpecError(f"{where(GEARBOX_FILE)}: {shown(path)}: must be the spec of a gearbox of planetary sets", GEARBOX_FILE)
+    changed = {key: value for key, value in values.items() if key != GEARBOX_FILE}
+    for key, value in changed.items():
+        _put(tables, key, value, where)
+    tables["planetary"] = {key: each for key, each in tables["planetary"].items() if key != "name"}
+
+    def whose(key: str) -> str:
+        return where(key) if key in changed else f"{where(GEARBOX_FILE)}: {where_in_spec(key)}"
+
+    return PlanetaryGearboxDesign.read(tables, whose, default_name)
+
+
+_STEP = re.compile(r"([^.\[\]]+)(?:\[(\d+)\])?")
+
+
+def _put(tables: dict[str, Any], key: str, value: Any, where: Where) -> None:
+    """Put a value at the place of its key in the tables of a spec. Raises SpecError for a place that they do not have."""
+    inner: Any = tables
+    steps: list[str | int] = []
+    for name, number in _STEP.findall(key):
+        steps += [name, int(number)] if number else [name]
+    for step in steps[:-1]:
+        if isinstance(inner, dict) and isinstance(step, str):
+            inner = inner.setdefault(step, {})
+        elif isinstance(inner, list) and isinstance(step, int) and step < len(inner):
+            inner = inner[step]
+        else:
+            inner = None
+    last = steps[-1]
+    if not isinstance(inner, dict) or not isinstance(last, str):
+        raise SpecError(f"{where(key)}: {shown(key)}: the spec of the gearbox has no such place", key)
+    inner[last] = _cell_value(value, inner.get(last), key, where)
+
+
+def _cell_value(value: Any, before: Any, key: str, where: Where) -> Any:
+    """Return the value of a cell as a spec has it: whole numbers where they are meant, lists and tables of TOML."""
+    if isinstance(value, float) and value.is_integer() and (isinstance(before, int) or key.endswith((".teeth", ".planets"))):
+        return int(value)
+    if isinstance(value, str) and value.lstrip().startswith(("[", "{")):
+        try:
+            return tomllib.loads("it=" + value)["it"]
+        except tomllib.TOMLDecodeError as error:
+            raise SpecError(f"{where(key)}: {shown(key)}: is not valid TOML: {error}", key) from error
+    return value
 
 
 def _set(content: Any, number: int, where: Where) -> MemberSet:

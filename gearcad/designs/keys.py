@@ -82,6 +82,10 @@ OF_GEARBOXES = {"set", "states"}
 """Keys of [planetary] by which a spec is that of a gearbox of several sets."""
 
 
+GEARBOX_FILE = "planetary.gearbox"
+"""Column of a design table of gearboxes: the spec of which the row changes values."""
+
+
 def is_gearbox(tables: Mapping[str, Any]) -> bool:
     """Return whether the tables of a spec are those of a gearbox of several planetary sets."""
     main = tables.get("planetary")

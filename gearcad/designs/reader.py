@@ -53,15 +53,19 @@ def design_from_tables(tables: Mapping[str, Any], *, where: Where, default_name:
 
 
 def refuse_gearbox(tables: Mapping[str, Any], where: Where) -> None:
-    """Raise SpecError for the spec of a gearbox of planetary sets, which neither the page nor a table takes."""
+    """Raise SpecError for the spec of a gearbox of planetary sets, which neither the page nor a study takes."""
     if is_gearbox(tables):
         key = "planetary.set"
-        words = "a gearbox of planetary sets has no page and no table: use `gearcad planetary` or `gearcad data`"
+        words = "a gearbox of planetary sets has no page and no such table: use `gearcad planetary` or a column gearbox"
         raise SpecError(f"{where(key)}: {key}: {words}", key)
 
 
 def design_from_values(values: Mapping[str, Any], kind: DesignKind, *, where: Where, default_name: str) -> Design:
     """Return the design that values under the keys of a design table describe. Raises SpecError."""
+    if kind is DesignKind.GEARBOX:
+        from gearcad.designs.gearbox_spec import gearbox_of_row
+
+        return gearbox_of_row(values, where, default_name)
     if kind is DesignKind.TRAIN:
         from gearcad.designs.train_designs import TrainDesign, tables_of
 

@@ -280,6 +280,8 @@ class DesignRow:
             except SpecError as error:
                 yield error
         kinds = kinds_of(self.columns)
+        if DesignKind.GEARBOX in kinds:
+            return  # its values are those of the spec, and what the row changes
         of = next((kind for kind in (DesignKind.TRAIN, DesignKind.PLANETARY) if kind in kinds), None)
         for key, value in self.values.items():
             if names_tool(key):  # which depends on the folder and the module

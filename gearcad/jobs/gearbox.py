@@ -79,6 +79,19 @@ class PlanetaryGearbox(Job[PlanetaryGearboxDesign, GearboxStudy]):
             "why_not": dict(result.why_not),
         }
 
+    def figures(self, document: JsonObject) -> JsonObject:
+        """Return ratio and efficiency of each state, its first natural frequency, and its greatest dynamic force."""
+        found: JsonObject = {}
+        for name, state in document["states"].items():
+            found |= {f"{name}.{key}": state[key] for key in ("ratio", "efficiency")}
+            if (vibration := state.get("vibration")) is None:
+                continue
+            above = [each["frequency"] for each in vibration["modes"]["families"] if each["frequency"] > 0]
+            found[f"{name}.frequency_1"] = min(above, default=None)
+            if (response := vibration["response"]) is not None:
+                found[f"{name}.dynamic_force"] = max(each["force"] for each in response["greatest"].values())
+        return found | {"warnings": document["warnings"]}
+
     def notices(self, result: GearboxStudy) -> Sequence[Notice]:
         return result.notices
 

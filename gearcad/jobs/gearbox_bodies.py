@@ -14,6 +14,7 @@ from gearcad.designs.design import Design
 from gearcad.designs.gearbox_spec import PlanetaryGearboxDesign
 from gearcad.designs.keys import DesignKind
 from gearcad.jobs.build import Build
+from gearcad.jobs.gearbox import PlanetaryGearbox
 from gearcad.jobs.job import Data, Job, Result, Writer
 from gearcad.solids import Format
 from gearcad.solids.body_plan import require_rim
@@ -44,6 +45,13 @@ class BuildGearbox(Job[PlanetaryGearboxDesign, GearboxBuilt]):
     why = "other designs are no gearboxes"
 
     job: Build
+
+    @property
+    def parts(self) -> dict[str, dict[str, Any]]:
+        return self.job.parts
+
+    def part_of(self, file: str) -> str:
+        return self.job.part_of(file)
 
     def run(self, design: Design, progress: Progress | None = None) -> GearboxBuilt:
         design = self.accepted(design, progress)
@@ -87,4 +95,6 @@ class BuildGearbox(Job[PlanetaryGearboxDesign, GearboxBuilt]):
 
 def suited_to_gearbox(job: Job[Any, Result]) -> Job[Any, Result]:
     """Return the job for a gearbox of planetary sets: the one that does the same with it, if there is one."""
-    return cast("Job[Any, Result]", BuildGearbox(job=job)) if isinstance(job, Build) else job
+    if isinstance(job, Build):
+        return cast("Job[Any, Result]", BuildGearbox(job=job))
+    return cast("Job[Any, Result]", PlanetaryGearbox()) if job.verb == PlanetaryGearbox.verb else job

@@ -80,6 +80,8 @@ class Planetary(ReportedJob[PlanetaryDesign, Studied]):
 
         They are ratio, efficiencies, speeds and torques, K_gamma, torsional stiffness and the first natural frequencies.
         """
+        if "states" in document:
+            return PlanetaryGearbox().figures(document)
         found = {name: document[name] for name in _FIGURES}
         for name, member in document["members"].items():
             found |= {f"members.{name}.{key}": member[key] for key in ("speed", "torque")}

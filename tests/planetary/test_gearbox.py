@@ -1,5 +1,6 @@
 """Gearboxes of several sets: printed ratios, Willis by hand, exact elimination, virtual work, and the balance of losses."""
 
+import csv
 import itertools
 import json
 import random
@@ -14,7 +15,7 @@ from support.planetary_trains import TRAINS
 import gearcad
 from gearcad.cli import main
 from gearcad.core.errors import GeometryError, ParameterError, SolverError
-from gearcad.designs import PlanetaryGearboxDesign
+from gearcad.designs import PlanetaryGearboxDesign, open_table
 from gearcad.jobs.gearbox import PlanetaryGearbox
 from gearcad.planetary.gearbox import Gearbox, GearboxState, StateResult
 from gearcad.planetary.gearbox_sets import MemberSet, SetCentral, SetPlanet
@@ -309,10 +310,63 @@ def test_other_commands_say_which_reads_it(tmp_path: Path, monkeypatch: pytest.M
     for verb in ("draw", "check", "mesh", "rate", "stiffness", "dynamics", "modify", "shafts", "verify", "picture"):
         done = CliRunner().invoke(main, [verb, "8hp.toml"])
         assert done.exit_code == 2 and done.stderr.endswith(f"{reads}\n") and done.stderr.count("\n") == 1, (verb, done.stderr)
-    no_table = "a gearbox of planetary sets has no page and no table: use `gearcad planetary` or `gearcad data`"
+    no_table = "a gearbox of planetary sets has no page and no such table: use `gearcad planetary` or a column gearbox"
     done = CliRunner().invoke(main, ["study", "8hp.toml", "--vary", "mesh_efficiency=0.98,0.99", "-o", "t.csv"])
     assert done.exit_code == 2 and done.stderr.endswith(f"planetary.set: {no_table}\n") and done.stderr.count("\n") == 1
     assert not Path("output").exists()
+
+
+def test_a_design_table_changes_values_of_a_spec(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Ratios of the first state by Willis: p1 stands still with p4's ring, so it is 1 + 85/z of p4's sun."""
+    monkeypatch.chdir(tmp_path)
+    Path("8hp.toml").write_text(SPEC, encoding="utf-8")
+    heading = "name,gearbox,set[3].sun.teeth,states.1.held,mesh_efficiency\n"
+    rows = ["plain,8hp.toml,,,", "other,8hp.toml,25,,0.98", 'held,8hp.toml,,"[""p1.ring"", ""p1.sun""]",']
+    Path("boxes.csv").write_text(heading + "\n".join(rows) + "\n", encoding="utf-8")
+    found = [row.design() for row in open_table("boxes.csv").rows()]
+    for design, teeth in zip(found, (23, 25, 23), strict=True):
+        assert isinstance(design, PlanetaryGearboxDesign)
+        assert design.gearbox.state("1").ratio == pytest.approx(1 + 85 / teeth, rel=1e-12)
+    assert isinstance(found[1], PlanetaryGearboxDesign) and found[1].gearbox.mesh_efficiency == 0.98
+    assert [design.name for design in found] == ["plain", "other", "held"]
+    done = CliRunner().invoke(main, ["batch", "boxes.csv", "--do", "data,planetary", "-j", "1"])
+    assert done.exit_code == 0, done.stderr
+    with Path("output/boxes/results.csv").open(encoding="utf-8") as file:
+        lines = list(csv.DictReader(file))
+    assert [float(each["planetary.1.ratio"]) for each in lines] == pytest.approx([1 + 85 / 23, 1 + 85 / 25, 1 + 85 / 23])
+    again = CliRunner().invoke(main, ["batch", "boxes.csv", "--do", "data,planetary", "-j", "1"])
+    assert again.exit_code == 0
+    with Path("output/boxes/results.csv").open(encoding="utf-8") as file:
+        assert [each["seconds"] for each in csv.DictReader(file)] == ["", "", ""]  # nothing was made again
+
+
+@pytest.mark.parametrize(
+    ("heading", "cell", "message"),
+    [
+        (
+            "set[3].sun.teeth",
+            "2",
+            r"boxes\.csv row 2 column C \(it\): planetary\.set\[3\]\.sun\.teeth = 2: must be a whole number",
+        ),
+        ("set[7].sun.teeth", "20", r"planetary\.set\[7\]\.sun\.teeth: the spec of the gearbox has no such place"),
+        ("input.teeth", "20", r"planetary\.input\.teeth: the spec of the gearbox has no such place"),
+        ("colour", "red", r"column C \(it\): planetary\.colour: unknown key; permitted are name, input"),
+        ("states.1.held", "[p1", r"planetary\.states\.1\.held: is not valid TOML"),
+        ("gearbox", "none.toml", r"none\.toml: cannot be read"),
+        ("gearbox", "pair.toml", r"must be the spec of a gearbox of planetary sets"),
+    ],
+)
+def test_wrong_rows_say_where(heading: str, cell: str, message: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("8hp.toml").write_text(SPEC, encoding="utf-8")
+    Path("pair.toml").write_text("[gear]\nteeth = 20\n", encoding="utf-8")
+    columns, cells = (
+        ("name,gearbox", f"it,{cell}") if heading == "gearbox" else (f"name,gearbox,{heading}", f"it,8hp.toml,{cell}")
+    )
+    Path("boxes.csv").write_text(f"{columns}\n{cells}\n", encoding="utf-8")
+    (row,) = open_table("boxes.csv").rows()
+    (fault,) = row.all_faults()
+    assert re.search(message, fault) and "\n" not in fault, fault
 
 
 def test_the_job_in_python_and_the_data_sheet(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
