@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from support.gearboxes import box_of, of_train, ravigneaux
+from support.gearboxes import box_of, meshing_planets, of_train, ravigneaux
 from support.planetary import clearance, contacts
 from support.planetary_trains import TRAINS
 
@@ -100,6 +100,21 @@ def test_tooth_positions_of_random_ravigneaux_sets_counted_in_whole_numbers() ->
             assert _teeth_fit(assembly, planets) is fits, (small, short, large, long, planets)
             fitting += fits
     assert fitting > 16
+
+
+def test_a_set_with_two_planets_between_sun_and_ring() -> None:
+    """Both turn in one sense: 1 - z_r/z_s between them, and planets fit where N divides z_r - z_s."""
+    each = meshing_planets(34, 18, 18, 90, 4)
+    box = box_of(each, "s.sun", "s.carrier", GearboxState(name="it", held=("s.ring",)))
+    assembly, found = box.assemblies["s"], box.state("it")
+    assert found.ratio == pytest.approx(1 - 90 / 34, rel=1e-12)
+    places = {name.removeprefix("s."): place for name, place in box.pose(found, 99.0).items()}
+    _judge(assembly, places)
+    first, second = (assembly.axes[name] for name in ("inner", "outer"))
+    apart = abs(complex(first.radius, 0) - second.radius * np.exp(1j * second.angle))
+    assert (first.radius, second.radius, apart) == pytest.approx((52.0, 72.0, 36.0), rel=1e-12)
+    for planets in range(1, 9):
+        assert _teeth_fit(assembly, planets) is ((90 - 34) % planets == 0), planets
 
 
 @pytest.mark.parametrize("kind", ["A", "B", "C", "D"])

@@ -37,6 +37,22 @@ def ravigneaux(small: int, short: int, large: int, long: int, planets: int, heli
     )
 
 
+def meshing_planets(sun: int, first: int, second: int, ring: int, planets: int) -> MemberSet:
+    """Sun, two planets that mesh with each other, and a ring; the outer planets stand as the ring takes them."""
+    gears = {
+        "sun": SetGear(gear=_gear(sun)),
+        "ring": SetGear(gear=_gear(-ring, tip_alteration=-0.25)),
+        "inner": SetGear(gear=_gear(first)),
+        "outer": SetGear(gear=_gear(second)),
+    }
+    return MemberSet(
+        name="s",
+        centrals=(SetCentral(name="sun", teeth=sun, meshes="inner"), SetCentral(name="ring", teeth=-ring, meshes="outer")),
+        planets=(SetPlanet(name="inner", teeth=first), SetPlanet(name="outer", teeth=second, meshes="inner")),
+        gearing=SetGearing(planets=planets, gears=gears),
+    )
+
+
 def of_train(kind: str, planets: int | None = None) -> MemberSet:
     """The set of a planetary train of the tests, whose planets stand at equal angles."""
     train = TRAINS[kind]
