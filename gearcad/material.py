@@ -23,6 +23,7 @@ from gearcad.core.quantities import (
     require_fields,
 )
 from gearcad.core.records import JsonObject, PerGear, concise, is_assumed
+from gearcad.hardness_depth import Points, depth_points
 from gearcad.material_shelf import FILE, properties_of
 
 __all__ = [
@@ -126,6 +127,9 @@ _HARDNESS = Range("", 50.0, 1500.0)
 """HV or HBW, as ISO 6336-5 has it of the group; there are the limits of each."""
 
 _CORE_HARDNESS = Range("HRC", 10.0, 60.0)
+_CASE_DEPTH = Range("mm", 0.01, 50.0)
+_SHEAR_RATIO = Range("MPa/HV", 0.05, 2.0)
+_HARDNESS_BOUNDS, _RESIDUAL_BOUNDS = (50.0, 1500.0, "HV"), (-3000.0, 3000.0, "MPa")
 
 WEAR_COEFFICIENT = Range("mm³/(N·m)", 1e-15, 1.0)
 """Volume (mm³) that is worn off for each N of normal force and m of sliding."""
@@ -158,7 +162,9 @@ class Material:
     MPa) how much where they are not hardened on the surface. With a `quality`, and the `hardness` of the flanks (HV; HBW of
     St, GGG, GTS and GG), a group has endurance limits by ISO 6336-5, unless they are given; `core_hardness` (HRC) counts
     for Eh MQ. A name such as "Eh MQ" gives group and quality. `yield_strength` is sigma_S or sigma_0.2, `tensile_strength`
-    sigma_B, `wear_coefficient` k_w (mm³/(N·m)) that of Archard's law. A plastic takes what is not given from the row of its
+    sigma_B, `wear_coefficient` k_w (mm³/(N·m)) that of Archard's law. What is below a flank: `hardness_profile`, pairs of depth
+    (mm) and HV, or `case_depth` (mm) with `hardness` and `case_core_hardness` (HV); `residual_stress`, pairs of depth and MPa;
+    `shear_ratio` K_tau (MPa/HV). A plastic takes what is not given from the row of its
     name in `materials.csv`. Raises ParameterError, and GeometryError for a group or a quality that is not that of the name.
     """
 
@@ -184,12 +190,23 @@ class Material:
         None
     )
 
+    hardness_profile: Annotated[Points | None, Words("hardness over depth", "HV"), WHEN_GIVEN] = None
+    case_depth: Annotated[float | None, _CASE_DEPTH, Words("case depth at 550 HV", "CHD"), WHEN_GIVEN] = None
+    case_core_hardness: Annotated[float | None, _HARDNESS, Words("hardness below the case", "HV"), WHEN_GIVEN] = None
+    residual_stress: Annotated[Points | None, Words("residual stress over depth", "σ_r"), WHEN_GIVEN] = None
+    shear_ratio: Annotated[
+        float | None, _SHEAR_RATIO, Words("permissible shear stress over hardness", "K_τ", "ISO/TS 6336-4"), WHEN_GIVEN
+    ] = None
+
     __repr__ = concise
 
     def __post_init__(self) -> None:
         if not isinstance(self.name, str):
             raise ParameterError("name", self.name, "must be a text")
         require_fields(self)
+        for name, bounds in (("hardness_profile", _HARDNESS_BOUNDS), ("residual_stress", _RESIDUAL_BOUNDS)):
+            if (given := getattr(self, name)) is not None:
+                object.__setattr__(self, name, depth_points(name, given, *bounds))
         self._take_grade()
         if self.plastic:
             self._take_properties()

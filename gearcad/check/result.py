@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, field, replace
 from functools import cached_property
 from operator import attrgetter
 from pathlib import Path
@@ -14,6 +14,7 @@ from typing import Any, ClassVar, NamedTuple, TypedDict
 from gearcad.check import pictures
 from gearcad.check.comparison import SECTION, CheckStrength, Comparison, Subject, verdict
 from gearcad.check.convergence import SOLID_ORDER, Convergence, SweepPoint, SweepTrends
+from gearcad.check.depth import MaterialExposure
 from gearcad.check.explanation import (
     Explanations,
     LoadShare,
@@ -50,7 +51,7 @@ from gearcad.contact.shared.loaded import Cycle, Extreme, LoadedPosition, RootSt
 from gearcad.contact.solid.cycle import SolidCycle, SolidPairContact
 from gearcad.core.errors import GearcadError
 from gearcad.core.quantities import inputs_document, with_assumed
-from gearcad.core.records import NOT_ASKED_WORDS, JsonObject, Notice, PerGear, Pictured, Verdict, strength_verdict, texts
+from gearcad.core.records import NOT_ASKED_WORDS, JsonObject, Notice, PerGear, Pictured, Role, Verdict, strength_verdict, texts
 from gearcad.core.runtime import one_thread
 from gearcad.geometry import GearPair, RackPair
 from gearcad.load import Load
@@ -131,6 +132,7 @@ class CheckResult(Pictured, ABC):
     relief_starts: tuple[ReliefStart, ...] = ()
     losses: MeshLosses | None = None
     plastic: PlasticCheck | None = None
+    exposure: Mapping[Role, MaterialExposure] = field(default_factory=dict)
 
     model: ClassVar[Model]
 
@@ -368,6 +370,7 @@ def check_document(result: CheckResult) -> JsonObject:
         "not_evaluated": result.summary.missing,
         "extremes": {name: _extreme(of) for name, of in result.summary.extremes.items()},
         **({} if result.losses is None else {"friction": result.losses.to_dict()}),
+        **({"depth": {role.value: of.to_dict() for role, of in result.exposure.items()}} if result.exposure else {}),
         "torque_sweep": [point.to_dict() for point in result.sweep],
         "torque_trends": result.trends.to_dict(),
         "rating": result.rating.to_dict(),

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 
 from gearcad.check.comparison import SECTION
 from gearcad.check.convergence import FACTORS, FEW_POSITIONS, SOLID_FACTORS, sweep_points, three_meshes, three_solid_meshes
+from gearcad.check.depth import depth_notices, material_exposure
 from gearcad.check.friction import friction_notices, mesh_losses
 from gearcad.check.gates import compare_plane, compare_solid
 from gearcad.check.notices import common_notices
@@ -144,7 +145,7 @@ def check_plane(task: CheckTask, tell: Agenda) -> PlaneCheck:
     model = plane_model(task)
     cycle = PlaneCycle.run(model, task.torque, task.options.positions_of(Model.PLANE)).searched(PLANE)
     summary = summarise_plane(cycle, model.single_stiffness(task.torque))
-    starts = relief_starts(cycle)
+    starts, exposure = relief_starts(cycle), material_exposure(task, cycle)
     tell("convergence")
     convergence = three_meshes(_refined(task, cycle)) if task.options.refines else ()
     tell("torque sweep")
@@ -164,6 +165,7 @@ def check_plane(task: CheckTask, tell: Agenda) -> PlaneCheck:
         *wide_plane_contacts(cycle),
         *start_notices(task, starts),
         *friction_notices(task),
+        *depth_notices(exposure),
     )
     return PlaneCheck(
         task=task,
@@ -176,6 +178,7 @@ def check_plane(task: CheckTask, tell: Agenda) -> PlaneCheck:
         relief_starts=starts,
         losses=mesh_losses(task, cycle),
         plastic=plastic,
+        exposure=exposure,
     )
 
 
@@ -266,7 +269,7 @@ def check_solid(task: CheckTask, agenda: Agenda) -> SolidCheck:
     positions = task.options.positions_of(Model.SOLID)
     cycle = SolidCycle.run(model, task.torque, positions, agenda.counted(CYCLE, "position")).searched(SOLID)
     summary, stresses = summarise_solid(cycle, model.single_stiffness(task.torque)), tooth_stresses(cycle)
-    starts, shafts = relief_starts(cycle), load_on_shafts(task, cycle)
+    starts, shafts, exposure = relief_starts(cycle), load_on_shafts(task, cycle), material_exposure(task, cycle)
     model.let_go()
     agenda(SWEEP)
     sweep = sweep_points(cycle, task.torques)
@@ -288,6 +291,7 @@ def check_solid(task: CheckTask, agenda: Agenda) -> SolidCheck:
         *start_notices(task, starts),
         *shaft_notices(task),
         *friction_notices(task),
+        *depth_notices(exposure),
     )
     return SolidCheck(
         task=task,
@@ -302,6 +306,7 @@ def check_solid(task: CheckTask, agenda: Agenda) -> SolidCheck:
         shafts=shafts,
         losses=mesh_losses(task, cycle),
         plastic=plastic,
+        exposure=exposure,
     )
 
 

@@ -14,6 +14,7 @@ from gearcad.contact.shared.loaded import LoadedCycle, LoadedPosition, PairConta
 from gearcad.core.errors import GeometryError, ParameterError
 from gearcad.core.records import PerGear, Role
 from gearcad.geometry import Gear, GearPair, RackPair
+from gearcad.hardness_depth import depth_profile_of
 from gearcad.load import Load
 from gearcad.material import Material, Materials, TabledNumber, of_both
 from gearcad.mounting import Mounting, SupportCompliance
@@ -170,6 +171,8 @@ def check_task(
     )
     _require_meshing(task)
     _ = task.friction
+    for each in task.materials:
+        depth_profile_of(each)
     return _at_temperature(task)
 
 

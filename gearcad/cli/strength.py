@@ -87,7 +87,7 @@ def print_verdict(name: str, result: CheckResult) -> None:
     if console.width < _WIDE:
         rows = [_Line(row.cells[:-1], row.style) for row in rows]
     lines = [*_aligned(rows), (_WORDS + _LOCAL * bool(result.relief_starts), "")]
-    lines += [(line, "") for line in _losses(result)]
+    lines += [(line, "") for line in (*_losses(result), *_exposures(result))]
     lines += [(f"Not evaluated: {', '.join(quantities)}: {reason}", "yellow") for reason, quantities in _reasons(result)]
     for text, style in lines:
         # Soft wrap: a narrow window may break a line, but never cut a number.
@@ -139,6 +139,13 @@ def _losses(result: CheckResult) -> Iterator[str]:
         factors += f", {losses.ohlendorf:.4f} by Ohlendorf"
     efficiency = f"efficiency of the mesh {100 * losses.efficiency:.3f} %{watts}{factors}"
     yield f"Friction: µ = {losses.coefficient:.4f}, {losses.words}; {efficiency}"
+
+
+def _exposures(result: CheckResult) -> Iterator[str]:
+    """Yield a line on the material exposure below the flanks of each gear, if its hardness over depth is known."""
+    for role, of in result.exposure.items():
+        found = f"{of.worst:.3f} at {of.worst_depth:.3g} mm"
+        yield f"Material exposure of the {role.value}: {found}; line contact {of.line_contact:.3f} at {of.line_depth:.3g} mm"
 
 
 def _reasons(result: CheckResult) -> Iterable[tuple[str, list[str]]]:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from gearcad.check.depth import MaterialExposure
 from gearcad.check.friction import MeshLosses
 from gearcad.check.on_shafts import LoadOnShafts
 from gearcad.check.pictures import ToothSurface
@@ -174,6 +175,36 @@ def plot_line_loads(result: SolidCheck, ax: Axes | None = None) -> Axes:
     axes.set_xlabel(PATH)
     axes.set_ylabel("across the face in mm")
     mark_path(axes, result.pair)
+    return axes
+
+
+def plot_exposure(exposure: MaterialExposure, ax: Axes | None = None) -> Axes:
+    """Material exposure of a gear at every depth below its flank, with the worst point and the depth of the case."""
+    axes = new_figure().subplots() if ax is None else ax
+    drawn = axes.pcolormesh(exposure.places, exposure.depths, exposure.exposure.T, vmin=0, cmap=_COLOUR_MAP, shading="nearest")
+    drawn.set_rasterized(True)
+    axes.figure.colorbar(drawn, ax=axes, label=r"material exposure, $\tau/\tau_{per}$")
+    worst = f"greatest: {exposure.worst:.3f}, {exposure.worst_depth:.3g} mm deep"
+    axes.plot(
+        [exposure.worst_place], [exposure.worst_depth], "o", color=DARK, markeredgecolor="white", markersize=7, label=worst
+    )
+    if case := exposure.profile.case_depth:
+        axes.axhline(case, color=DARK, linestyle=":", linewidth=1.2, label=f"case depth, {case:.3g} mm")
+    axes.set_ylim(float(exposure.depths[-1]), 0.0)
+    axes.set_xlabel(f"roll length on the {exposure.role.value}'s flank in mm")
+    axes.set_ylabel("depth in mm")
+    legend_above(axes, 2)
+    return axes
+
+
+def plot_exposure_course(exposure: MaterialExposure, ax: Axes | None = None) -> Axes:
+    """Amplitude of the largest shear stress over the depth at the worst point of a flank, and what the hardness bears."""
+    axes = prepared(ax, "depth in mm", "shear stress in MPa")
+    axes.plot(exposure.depths, exposure.shear, color=SERIES[0], label="amplitude of the largest shear stress")
+    bears = rf"$\tau_{{per}} = {exposure.profile.ratio:g}\,HV$"
+    axes.plot(exposure.depths, exposure.permissible, color=SERIES[1], label=bears)
+    axes.set_ylim(bottom=0)
+    legend_above(axes, 2)
     return axes
 
 

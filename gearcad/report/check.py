@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import base64
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property, partial, singledispatch
 from pathlib import Path
@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Generic, NamedTuple, TypedDict,
 import numpy as np
 
 from gearcad.check.comparison import Comparison, ComparisonRole
+from gearcad.check.depth import MaterialExposure
 from gearcad.check.pictures import ToothSurface
 from gearcad.check.result import CheckResult, PlaneCheck, SolidCheck, StiffnessMethods
 from gearcad.core.records import Role
@@ -27,6 +28,8 @@ from gearcad.plots.check import (
     plot_contact_zone,
     plot_convergence,
     plot_depth_profile,
+    plot_exposure,
+    plot_exposure_course,
     plot_fillets,
     plot_gap_of_shafts,
     plot_harmonics,
@@ -365,6 +368,7 @@ class CheckSections(ABC, Generic[Checked]):
             _common("Transmission error", partial(plot_transmission_error, of), "transmission_error", of),
             _common("Root stress over the mesh", partial(plot_root_stress, of), "root_stress", of),
             *([] if of.losses is None else [_common("Losses", partial(plot_losses, of.losses), "friction_losses", of)]),
+            *(figure for exposure in of.exposure.values() for figure in _below_flank(exposure)),
         ]
 
     @property
@@ -414,6 +418,14 @@ class CheckSections(ABC, Generic[Checked]):
 
 def _common(title: str, draw: Callable[[Axes], Axes], caption: str, *of: object) -> ReportFigure:
     return ReportFigure(title, picture_address(draw, "svg"), sentences("captions_check.txt", caption, *of))
+
+
+def _below_flank(of: MaterialExposure) -> Iterator[ReportFigure]:
+    """Yield the figures of the material exposure of a gear."""
+    whose, text = of.role.value, sentences("captions_check.txt", "exposure", of)
+    yield ReportFigure(f"Material exposure, {whose}", picture_address(partial(plot_exposure, of), "png"), text)
+    course = sentences("captions_check.txt", "exposure_course", of)
+    yield ReportFigure(f"Shear stress over depth, {whose}", picture_address(partial(plot_exposure_course, of), "svg"), course)
 
 
 def _row(comparison: Comparison) -> ComparisonRow:

@@ -18,6 +18,7 @@ PLANETARY = ["planetary-24-21-66", "planetary-alm", "planetary-alm-in-phase", "p
 PAIRS = [
     "ground-25-41",
     "alm-18-161",
+    "case-depth",
     "double-23-81",
     "fzg-c",
     "plastic-51-52",

@@ -38,6 +38,7 @@ def test_new_lists_tables_beside_specs() -> None:
     lines = run("new").stdout.splitlines()
     assert [line.split()[0] for line in lines] == [
         "alm-18-161",
+        "case-depth",
         "ci-github",
         "ci-gitlab",
         "double-23-81",

@@ -299,7 +299,7 @@ def test_a_gear_that_is_wrong_at_any_centre_distance_is_named_itself() -> None:
             "<pinion.root_radius>: pinion.root_radius: unknown key; did you mean rack.root_radius?",
         ),
         ({"pinion": {"body": {"boer": 3}}}, "<pinion.body.boer>: pinion.body.boer: unknown key; did you mean body.bore?"),
-        ({"pinion": {"qqq": 3}}, "<pinion.qqq>: pinion.qqq: unknown key; the nearest of the 126 permitted are "),
+        ({"pinion": {"qqq": 3}}, "<pinion.qqq>: pinion.qqq: unknown key; the nearest of the 131 permitted are "),
         (
             {"pinion": {"centre_distance": 3}},
             "<pinion.centre_distance>: pinion.centre_distance: unknown key here; it belongs in [pair]",

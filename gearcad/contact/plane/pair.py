@@ -277,7 +277,7 @@ def _second(x: Floats) -> Floats:
     return result
 
 
-_FRICTION_ROUNDS, _FRICTION_SETTLED = 60, 1e-12
+_FRICTION_ROUNDS, _FRICTION_SETTLED = 60, 1e-10
 """Rounds of finding friction from pressures, and the change of a pressure, over the greatest, at which they have settled."""
 
 _FEWEST = 6

@@ -23,7 +23,7 @@ from gearcad.core.records import Floats, PerGear, Role
 from gearcad.geometry import GearPair
 from gearcad.rating.friction import MeshFriction
 
-_ROUNDS, _SETTLED = 40, 1e-10
+_ROUNDS, _SETTLED = 40, 1e-8
 """Rounds of finding friction from forces, and the change of a force, over the greatest, at which they have settled."""
 
 
