@@ -18,7 +18,7 @@ from typing import NamedTuple
 
 from gearcad.core.errors import SpecError, format_number, shown
 from gearcad.core.runtime import templates
-from gearcad.core.shelf_tables import Place, ShelfTable, cell_value, column_letter, read_shelf_table, user_folder
+from gearcad.core.shelf_tables import Place, ShelfTable, cell_value, column_letter, read_shelf_table, shelf_columns, user_folder
 
 FILE = "materials.csv"
 """Name of a table of materials in the folder of a design, and in that of the user's configuration."""
@@ -265,16 +265,4 @@ def _require_alike(points: Sequence[_Point], point: _Point, where: str) -> None:
 
 def _headings(cells: Sequence[str], where: str) -> tuple[str, ...]:
     """Return the key of each column. Raises SpecError, one line for a heading that is none or is not there."""
-    columns = tuple(cell.strip() for cell in cells)
-    for at, key in enumerate(columns):
-        if key and key not in _COLUMNS:
-            raise SpecError(
-                f"{where} column {column_letter(at)}: {shown(key)}: unknown column; permitted are {', '.join(_COLUMNS)}"
-            )
-        if key and key in columns[:at]:
-            first = column_letter(columns.index(key))
-            raise SpecError(f"{where} column {column_letter(at)}: {key}: is the same as column {first}")
-    for key in ("name", "quantity", "value", "unit"):
-        if key not in columns:
-            raise SpecError(f"{where}: has no column {key}; must have {', '.join(_COLUMNS)}")
-    return columns
+    return shelf_columns(cells, where, _COLUMNS, needed=("name", "quantity", "value", "unit"))

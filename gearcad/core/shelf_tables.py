@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import csv
+import difflib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from pathlib import Path
 from typing import NamedTuple
 
-from gearcad.core.errors import SpecError, printable, shown_path
+from gearcad.core.errors import SpecError, printable, shown, shown_path
 
 
 class Place(Enum):
@@ -110,6 +111,31 @@ def read_shelf_table(
             raise SpecError(f"{table.shown} row {number} column {column_letter(named)}: has no name")
         found.append(ShelfRow(number, name, tuple(cells)))
     return ShelfTable(table.path, table.place, table.own_name, columns, separator), found
+
+
+def shelf_columns(
+    cells: Sequence[str], where: str, known: Sequence[str], *, otherwise: str = "", needed: Sequence[str] = ("name",)
+) -> tuple[str, ...]:
+    """Return the column of each heading, "" of a blank one.
+
+    Raises SpecError, one line with the place, for one that is not known, is there twice, or is needed and not there. What is
+    not like any that is known is told with `otherwise`, or else with all that are known.
+    """
+    columns: list[str] = []
+    for at, cell in enumerate(cells):
+        column = cell.strip()
+        if column and column not in known:
+            near = difflib.get_close_matches(column, known, n=1)
+            hint = f"did you mean {near[0]}?" if near else otherwise or f"permitted are {', '.join(known)}"
+            raise SpecError(f"{where} column {column_letter(at)}: {shown(column)}: unknown column; {hint}")
+        if column and column in columns:
+            first = column_letter(columns.index(column))
+            raise SpecError(f"{where} column {column_letter(at)}: {column}: is the same as column {first}")
+        columns.append(column)
+    for column in needed:
+        if column not in columns:
+            raise SpecError(f"{where}: has no column {column}; must have {', '.join(needed)}")
+    return tuple(columns)
 
 
 def cell_value(text: str, separator: str) -> float | str | None:

@@ -6,7 +6,6 @@ The columns are `name`, `normal_module` (mm; blank: every module), `source`, and
 
 from __future__ import annotations
 
-import difflib
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -16,7 +15,7 @@ from typing import TYPE_CHECKING, Any, get_args
 
 from gearcad.core.errors import GeometryError, InputError, ParameterError, SpecError, shown
 from gearcad.core.quantities import FieldSchema, schema_of
-from gearcad.core.shelf_tables import Place, ShelfTable, cell_value, column_letter, read_shelf_table
+from gearcad.core.shelf_tables import Place, ShelfTable, cell_value, column_letter, read_shelf_table, shelf_columns
 from gearcad.geometry.gear_parts import BasicRack, NormalModule, ShaperCutter
 from gearcad.geometry.premachining import Premachining
 
@@ -240,19 +239,6 @@ def read_tools(path: Path, place: Place, _stamp: tuple[int, int]) -> tuple[ToolR
 
 def _headings(cells: Sequence[str], where: str) -> tuple[str, ...]:
     """Return the key of each column. Raises SpecError, one line for a heading that is none."""
-    known = (*_PLAIN, *_columns())
-    columns: list[str] = []
-    for at, cell in enumerate(cells):
-        key = {"module": "normal_module"}.get(cell.strip(), cell.strip())
-        if key and key not in known:
-            near = difflib.get_close_matches(key, known, n=1)
-            hint = f"did you mean {near[0]}?" if near else "must be name, normal_module, source, or a key such as rack.dedendum"
-            raise SpecError(f"{where} column {column_letter(at)}: {shown(cell.strip())}: unknown column; {hint}")
-        if key and key in columns:
-            raise SpecError(
-                f"{where} column {column_letter(at)}: {key}: is the same as column {column_letter(columns.index(key))}"
-            )
-        columns.append(key)
-    if "name" not in columns:
-        raise SpecError(f"{where}: has no column name, by which tools are found")
-    return tuple(columns)
+    keys = ["normal_module" if cell.strip() == "module" else cell for cell in cells]
+    otherwise = "must be name, normal_module, source, or a key such as rack.dedendum"
+    return shelf_columns(keys, where, (*_PLAIN, *_columns()), otherwise=otherwise)

@@ -6,7 +6,6 @@ The columns are the keys of a bearing that do not depend on its place: `name`, `
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from pathlib import Path
@@ -15,7 +14,7 @@ from typing import Any
 
 from gearcad.core.errors import InputError, SpecError, shown
 from gearcad.core.runtime import templates
-from gearcad.core.shelf_tables import Place, ShelfTable, cell_value, column_letter, read_shelf_table, user_folder
+from gearcad.core.shelf_tables import Place, ShelfTable, cell_value, column_letter, read_shelf_table, shelf_columns, user_folder
 from gearcad.shafts.beam import ShaftBearing
 
 FILE = "bearings.csv"
@@ -83,18 +82,4 @@ def _bearings(path: Path, place: Place, _stamp: tuple[int, int]) -> Mapping[str,
 
 def _headings(cells: Sequence[str], where: str) -> tuple[str, ...]:
     """Return the key of each column. Raises SpecError, one line for a heading that is none."""
-    columns: list[str] = []
-    for at, cell in enumerate(cells):
-        key = cell.strip()
-        if key and key not in _COLUMNS:
-            near = difflib.get_close_matches(key, _COLUMNS, n=1)
-            hint = f"did you mean {near[0]}?" if near else f"permitted are {', '.join(_COLUMNS)}"
-            raise SpecError(f"{where} column {column_letter(at)}: {shown(key)}: unknown column; {hint}")
-        if key and key in columns:
-            raise SpecError(
-                f"{where} column {column_letter(at)}: {key}: is the same as column {column_letter(columns.index(key))}"
-            )
-        columns.append(key)
-    if "name" not in columns:
-        raise SpecError(f"{where}: has no column name, by which bearings are found")
-    return tuple(columns)
+    return shelf_columns(cells, where, _COLUMNS)

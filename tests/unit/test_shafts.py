@@ -605,7 +605,7 @@ def test_a_bearing_of_the_shelf_fills_what_the_spec_leaves_open(tmp_path: Path) 
         ("name,kind\n6206,ball\n", "bearings.csv row 2 column B (6206): kind = 'ball': must be"),
         ("name,C\n6206,-3\n", "bearings.csv row 2 column B (6206): C = -3 N: must be"),
         ("name,C\n6206,30\n6206,31\n", "bearings.csv row 3 (6206): is there twice; keep one of them"),
-        ("kind,C\ndeep groove,30\n", "bearings.csv row 1: has no column name, by which bearings are found"),
+        ("kind,C\ndeep groove,30\n", "bearings.csv row 1: has no column name; must have name"),
     ],
 )
 def test_faults_of_a_table_of_bearings_are_one_line(tmp_path: Path, text: str, words: str) -> None:
