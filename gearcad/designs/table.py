@@ -128,6 +128,10 @@ def _fault_in_train(key: str, value: Cell, where: Where) -> SpecError | None:
     found = TrainKey.of(key)
     if found is None or found.schema.members == (str,) or found.name == ALL:
         return None
+    if inside := found.in_pair:
+        of_pair = f"pair.{inside}" if inside in FIELDS["pair"] else inside
+        error = fault_alone(of_pair, value, lambda _key: f"{where(key)}: {shown(found.name)}")
+        return None if error is None else SpecError(str(error), key)
     sound = _sound_train(key, value)
     shaped = {other: given for other, given in sound.items() if not other.endswith(".torsional_stiffness")}
     shaped |= {f"shaft.{found.name or 'part'}.{field}": 1.0 for field in ("length", "diameter")}

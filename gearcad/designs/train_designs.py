@@ -25,6 +25,7 @@ from gearcad.designs.design import (
 )
 from gearcad.designs.keys import BESIDE, MAIN_TABLES, OF_SETS, DesignKind, permitted_words
 from gearcad.designs.pair_designs import PairDesign
+from gearcad.designs.pair_keys import with_pair_value
 from gearcad.designs.spec import Given
 from gearcad.designs.torque_files import read_torque
 from gearcad.designs.train_keys import ALL, MAIN, TORQUES, TRAIN, TRAIN_PARTS, TrainKey, explain_unknown_key_of_train
@@ -156,6 +157,7 @@ def tables_of(values: Mapping[str, Any], where: Where) -> TrainTables:
     main: dict[str, Any] = {}
     parts: dict[tuple[str, str], dict[str, Any]] = {(t, name): {"name": name} for t in TRAIN_PARTS for name in names[t]}
     other: dict[str, Any] = {}
+    inside: list[tuple[str, str, TrainKey]] = []  # keys in the pairs of meshes, which come when the pairs are there
     # Those of all parts first: what a part has of its own replaces them.
     for key, found in sorted(keys.items(), key=lambda each: each[1] is not None and each[1].name != ALL):
         assert found is not None  # headings and studies have seen to it
@@ -170,7 +172,12 @@ def tables_of(values: Mapping[str, Any], where: Where) -> TrainTables:
             if not chosen:
                 raise SpecError(f"{where(key)}: {key}: the train has no {found.table} at all", key)
             for name in chosen:
-                parts[found.table, name][found.field] = _part_value(key, values[key], found.schema, where)
+                if found.in_pair:
+                    inside.append((key, name, found))
+                else:
+                    parts[found.table, name][found.field] = _part_value(key, values[key], found.schema, where)
+    for key, name, found in inside:
+        with_pair_value(parts[found.table, name], found.in_pair, _typed(values[key], found.schema), key, where)
     for table in TRAIN_PARTS:
         main[table] = [part for (home, _), part in parts.items() if home == table]
     owners = {f"{MAIN}.{t}[{number}]": f"{t}.{name}" for t in TRAIN_PARTS for number, name in enumerate(names[t])}
@@ -259,7 +266,8 @@ def read_pair(given: Any, where: Where, owner: str, mesh: str) -> DesignedPair:
         found.mounted  # noqa: B018 - raises where the gears do not mesh as they are mounted
     except SpecError as error:
         if not isinstance(given, str):
-            raise
+            inside = error.key.removeprefix("pair.")
+            raise SpecError(str(error), f"{owner}.{inside}" if inside else owner) from error.__cause__ or error
         raise SpecError(f"{where(owner)}: {mesh}.pair: {error}", owner) from error
     except InputError as error:
         file = f" {printable(given)}:" if isinstance(given, str) else ""

@@ -8,6 +8,7 @@ from __future__ import annotations
 import difflib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from functools import cache
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Annotated, NamedTuple, Self
 
@@ -140,6 +141,35 @@ TRAIN: dict[str, dict[str, FieldSchema]] = {
 
 _TORQUE = schema_of(_OfTorques)[TORQUES]
 
+PAIR = "pair"
+"""Key of a mesh whose own keys are those of a spec of a pair: `mesh.stage 1.pair.pinion.teeth`."""
+
+_TABLES_OF_PAIRS = (*(role.value for role in Role), *BESIDE)
+"""Tables of a spec of a pair that may stand in the pair of a mesh; other keys there are those of [pair]."""
+
+
+@cache
+def _fields_in_pairs() -> dict[str, FieldSchema]:
+    """Return the fields of all keys in the pair of a mesh; those of lists of shafts as `pinion.shaft[].length`."""
+    found = {key: field for key, field in FIELDS[PAIR].items() if key != "name"}
+    found |= {f"{table}.{key}": field for table in _TABLES_OF_PAIRS for key, field in FIELDS.get(table, {}).items()}
+    owners = tuple(f"{role.value}." for role in Role)
+    return found | {key: field for key, field in shaft_fields().items() if key.startswith((*owners, "shafts."))}
+
+
+def field_in_pair(key: str) -> FieldSchema | None:
+    """Return the field of a key in the pair of a mesh, such as `pinion.teeth`, or None."""
+    return None if "[]" in key else _fields_in_pairs().get(general_shaft_key(key))
+
+
+def _in_pair(rest: str) -> tuple[str, str] | None:
+    """Return the name of the mesh and the key in its pair of `NAME.pair.KEY`, or None; names may hold that word too."""
+    mark = f".{PAIR}."
+    for place in (at for at in range(1, len(rest)) if rest.startswith(mark, at)):
+        if field_in_pair(rest[place + len(mark) :]) is not None:
+            return rest[:place], rest[place + len(mark) :]
+    return None
+
 
 class TrainKey(NamedTuple):
     """A key of a train: of a table, and of the part of this name, "" in [train] and [dynamics]."""
@@ -153,6 +183,8 @@ class TrainKey(NamedTuple):
         """Return the key in its parts, or None for a key that no train has."""
         table, _, rest = key.partition(".")
         name, _, field = rest.rpartition(".")
+        if table == "mesh" and (inside := _in_pair(rest)) is not None:
+            return cls(table, inside[0], f"{PAIR}.{inside[1]}")
         if table in TRAIN_PARTS:
             return cls(table, name, field) if name and field in TRAIN[table] else None
         if table == MAIN and rest.startswith(f"{TORQUES}."):
@@ -168,11 +200,20 @@ class TrainKey(NamedTuple):
     @property
     def schema(self) -> FieldSchema:
         """Schema of the field."""
+        if (inside := self.in_pair) and (found := field_in_pair(inside)) is not None:
+            return found
         return _TORQUE if self.field == TORQUES else TRAIN[self.table][self.field]
 
     @property
+    def in_pair(self) -> str:
+        """Key in the pair of the mesh, such as `pinion.teeth`; "" for a key of the mesh itself and of other parts."""
+        return self.field.removeprefix(f"{PAIR}.") if self.table == "mesh" and self.field.startswith(f"{PAIR}.") else ""
+
+    @property
     def general(self) -> str:
-        """Key that stands for all parts of its kind."""
+        """Key that stands for all parts of its kind, and for all tables of a list of shafts."""
+        if self.in_pair:
+            return f"{self.table}.{ALL}.{PAIR}.{general_shaft_key(self.in_pair)}"
         return str(self._replace(name=ALL)) if self.name else str(self)
 
 
@@ -191,6 +232,8 @@ def explain_unknown_key_of_train(key: str, names: Mapping[str, tuple[str, ...]] 
     if rest.startswith(f"{TORQUES}.") and names is not None:
         return _unknown_part("inertia", rest[len(TORQUES) + 1 :], f"{MAIN}.{TORQUES}.{{}}", names)
     near = difflib.get_close_matches(table.lower(), TRAIN, n=1, cutoff=0.75) if dot else []
+    if near == ["mesh"] and f".{PAIR}." in rest:
+        return _unknown_in_pair(rest, names)
     name, _, field = rest.rpartition(".") if near else ("", "", key)
     table = near[0] if near else ""
     if table in TRAIN_PARTS and field in TRAIN[table] and name and names is not None and name not in _permitted(names[table]):
@@ -204,6 +247,16 @@ def explain_unknown_key_of_train(key: str, names: Mapping[str, tuple[str, ...]] 
     return (
         "unknown key; must be one of a train, such as train.model, shaft.NAME.damping_ratio or, for all shafts, shaft.*.modes"
     )
+
+
+def _unknown_in_pair(rest: str, names: Mapping[str, tuple[str, ...]] | None) -> str:
+    """Return the message about a key in the pair of a mesh, of which the pair has none, or the train no such mesh."""
+    name, _, inside = rest.partition(f".{PAIR}.")
+    if names is not None and name not in _permitted(names["mesh"]):
+        return _unknown_part("mesh", name, f"mesh.{{}}.{PAIR}.{inside}", names)
+    if found := difflib.get_close_matches(inside, _fields_in_pairs(), n=1, cutoff=0.75):
+        return f"unknown key; did you mean mesh.{name}.{PAIR}.{found[0]}?"
+    return f"unknown key; must be one of a pair, such as mesh.{name}.{PAIR}.pinion.teeth"
 
 
 def _unknown_part(table: str, name: str, written: str, names: Mapping[str, tuple[str, ...]]) -> str:
@@ -241,6 +294,7 @@ _ALL_FIELDS = {
     for key, field in fields.items()
 }
 _ALL_FIELDS |= shaft_fields()
+_ALL_FIELDS |= {f"mesh.{ALL}.{PAIR}.{key}": field for key, field in _fields_in_pairs().items()}
 COUNTS = frozenset(key for key, field in _ALL_FIELDS.items() if field.whole)
 LISTS = frozenset(key for key, field in _ALL_FIELDS.items() if field.several)
 NESTED = frozenset(key for key, field in _ALL_FIELDS.items() if field.nested)

@@ -210,7 +210,8 @@ def _of_part(heading: str) -> tuple[str, Symbol] | None:
         key, _, name = rest.partition(".")
         return (name, symbols.TRAIN_DYNAMICS[key]) if name and key in symbols.TRAIN_DYNAMICS else None
     if (found := TrainKey.of(heading)) is not None:
-        return _ALL_PARTS[table] if found.name == ALL else found.name, found.schema.symbol
+        gear = next((f" {owner}" for owner in _OWNERS if found.in_pair.startswith(f"{owner}.")), "")
+        return (_ALL_PARTS[table] if found.name == ALL else found.name) + gear, found.schema.symbol
     name, _, key = rest.rpartition(".")
     return (name, symbols.TRAIN_PARTS[table][key]) if table in TRAIN_PARTS and key in symbols.TRAIN_PARTS[table] else None
 

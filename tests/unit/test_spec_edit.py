@@ -244,6 +244,7 @@ def cases() -> Iterator[tuple[Mapping[str, Any], tuple[str | int, ...]]]:
             if table in each or table in BESIDE:
                 yield from ((each, (table, *key.split("."))) for key, field in fields.items() if takes_text(field))
     train = spec("train-1-stage.toml")
+    train["train"]["excitation"] = [{"name": "ripple", "inertia": "pinion", "order": 1.0, "amplitude": 1.0}]
     for table, kind in TRAIN_PARTS.items():
         yield from ((train, ("train", table, 0, key)) for key, field in schema_of(kind).items() if takes_text(field))
 
