@@ -1,6 +1,7 @@
 """Shafts of a train with segments: stiffness by hand, forces of both gears of a shaft against statics by hand, wrong input."""
 
 import math
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +12,7 @@ from gearcad.core.errors import InputError, SpecError
 from gearcad.designs import TrainDesign, read_spec
 from gearcad.designs.reader import starter_text
 from gearcad.designs.train_meshes import train_meshes
+from gearcad.dynamics.trains.train import train_document
 from gearcad.jobs.shafts import Shafts
 from gearcad.jobs.strength import Rate
 from gearcad.jobs.train import suited
@@ -123,6 +125,19 @@ def test_pairs_of_meshes_have_the_shafts_of_the_train(tmp_path: Path) -> None:
     found = suited(Rate(report=False), design).run(design)
     ratings = [each.document["sources"].get("K_Hbeta", "") for each in found.meshes]  # type: ignore[attr-defined]
     assert "shafts" in ratings[0] or "annex E" in ratings[0]
+
+
+def test_data_have_the_moduli_of_the_segments(tmp_path: Path) -> None:
+    """Those that stiffness and inertia follow from; none where segments differ."""
+    first = starter(tmp_path)
+    for shaft in first.to_dict()["shaft"].values():
+        assert (shaft["shear_modulus"], shaft["density"]) == (pytest.approx(E / (2 * (1 + NU)), rel=1e-12), 7850.0)
+    shaft = first.train.shafts[0]
+    assert shaft.layout is not None
+    softer = replace(shaft.layout.segments[0], youngs_modulus=1e5)
+    mixed = replace(shaft.layout, segments=(softer, *shaft.layout.segments[1:]))
+    train = replace(first.train, shafts=(replace(shaft, layout=mixed), *first.train.shafts[1:]))
+    assert train_document(train)["shaft"][shaft.name]["shear_modulus"] is None
 
 
 def test_a_layout_may_stand_in_a_file(tmp_path: Path) -> None:

@@ -390,8 +390,16 @@ def _of_inertia(train: Train, inertia: Inertia) -> dict[str, Any]:
 
 
 def _of_shaft(shaft: Shaft) -> dict[str, Any]:
-    """Return the document of a shaft, with stiffness and inertia also where it is given by its shape."""
-    layout = {} if shaft.layout is None else {"layout": _plain(asdict(shaft.layout))}
+    """Return the document of a shaft, with stiffness and inertia also where it is given by its shape.
+
+    Shear modulus and density are those that stiffness and inertia follow from: of segments theirs, None where they differ.
+    """
+    layout: dict[str, Any] = {}
+    if shaft.layout is not None:
+        for key in ("shear_modulus", "density"):
+            first, *others = (float(getattr(segment, key)) for segment in shaft.layout.segments)
+            layout[key] = first if all(each == first for each in others) else None
+        layout["layout"] = _plain(asdict(shaft.layout))
     return {**_fields(shaft), "torsional_stiffness": shaft.stiffness, "inertia": shaft.inertia, **layout}
 
 
