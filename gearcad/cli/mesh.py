@@ -114,6 +114,6 @@ def _of_deck(file: str, deck: Deck) -> str:
 def _extent(judged: JudgedMesh, result: MeshResult) -> str:
     if result.plan.element is Element.TET10:
         return f"whole part with {judged.teeth} teeth"
-    if judged.teeth == judged.gear.teeth:
+    if judged.teeth == judged.every_tooth:
         return f"ring of {judged.teeth} teeth"
     return "1 tooth" if judged.teeth == 1 else f"{judged.teeth} teeth"

@@ -4,19 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
 from gearcad.check.task import CheckTask
-from gearcad.contact.shared.line_of_action import LineOfAction
 from gearcad.core.records import PerGear, Role
 from gearcad.decks.plane import PlaneDecks
 from gearcad.geometry import RackPair
 from gearcad.meshing.bodies import ElementMesh
-from gearcad.meshing.bodies.element_mesh import joined
-from gearcad.meshing.bodies.rack_mesh import mesh_strip
+from gearcad.meshing.bodies.rack_mesh import mesh_strip, pinion_turn, rack_posed
 from gearcad.meshing.bodies.sectors import ContactRefinement
 
 _RACK = """\
@@ -47,10 +43,6 @@ class RackDecks(PlaneDecks):
         return self.task.pair
 
     @property
-    def _line(self) -> LineOfAction:
-        return self.cycle.model.line
-
-    @property
     def flank_lengths(self) -> list[float]:
         profile = self.rack_pair.rack.profile
         cosine = math.cos(math.radians(self.rack_pair.working_transverse_pressure_angle))
@@ -68,25 +60,10 @@ class RackDecks(PlaneDecks):
         return mesh_strip(self.rack_pair.rack, teeth=teeth, sizes=self.sizes, contacts=zones)
 
     def posed(self, meshes: PerGear[ElementMesh], roll_angle: float, approach: float) -> ElementMesh:
-        """Return pinion and rack in one mesh: the pinion about the z axis, the rack's tips towards it."""
-        side = 1.0 if self.left else -1.0
-        pinion = _turned(meshes.pinion, self.turn(Role.PINION, roll_angle) + side * approach / self._base_radius)
-        touching = self._line.lengths(self.cycle.model.roll_length(roll_angle))
-        angle = math.radians(self.rack_pair.working_transverse_pressure_angle)
-        _, half = self.cycle.model.wheel.flank.points(touching.wheel)
-        along = -self._base_radius * math.sin(angle) + touching.pinion * math.cos(angle) + float(half)
-        rack = _turned(meshes.wheel, math.pi)
-        shift = np.array([self.rack_pair.mounting_distance, side * along, 0.0])
-        return joined({"pinion": pinion, "wheel": replace(rack, points=rack.points + shift)})
+        return rack_posed(self.rack_pair, meshes, roll_angle, approach, left=self.left)
 
     def turn(self, role: Role, roll_angle: float) -> float:
-        if role is Role.WHEEL:
-            return math.pi
-        touching = self._line.lengths(self.cycle.model.roll_length(roll_angle))
-        angle = math.radians(self.rack_pair.working_transverse_pressure_angle)
-        pinion = self.rack_pair.pinion
-        turn = -angle + touching.pinion / self._base_radius - math.radians(pinion.base_half_angle)
-        return turn if self.left else -turn
+        return math.pi if role is Role.WHEEL else pinion_turn(self.rack_pair, roll_angle, left=self.left)
 
     def words(self, expected: Mapping[str, Any]) -> list[str]:
         roots = {f"root_{gear}": stress for gear, stress in expected["root_stress"].items()}
@@ -101,10 +78,3 @@ class RackDecks(PlaneDecks):
 def plane_decks(task: CheckTask) -> PlaneDecks:
     """Return the decks of sections of a pair, or of a pinion and a rack. Raises ParameterError and GeometryError."""
     return RackDecks(task) if isinstance(task.pair, RackPair) else PlaneDecks(task)
-
-
-def _turned(mesh: ElementMesh, angle: float) -> ElementMesh:
-    """Return a section turned about the z axis by an angle (rad)."""
-    cosine, sine = math.cos(angle), math.sin(angle)
-    x, y, z = mesh.points.T
-    return replace(mesh, points=np.stack([cosine * x - sine * y, sine * x + cosine * y, z], -1))

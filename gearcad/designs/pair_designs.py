@@ -54,6 +54,7 @@ if TYPE_CHECKING:
     from gearcad.check.task import CheckTask
     from gearcad.designs.shaft_spec import PairShafts, ShaftArrangement
     from gearcad.dynamics.options import DynamicsOptions
+    from gearcad.meshing.options import MeshOptions
     from gearcad.rating.load_factors import FaceLoadSource
 
 
@@ -370,7 +371,7 @@ class PairSpec(Spec):
         return replace(pair, wheel=replace(pair.wheel, tip_alteration=given.value + change))
 
 
-_BESIDE = ("material", "load", "check", "dynamics", "rating", "drawing", "verify")
+_BESIDE = ("material", "load", "check", "mesh", "dynamics", "rating", "drawing", "verify")
 _GEARS = ("pinion", "rack")
 
 
@@ -380,13 +381,14 @@ class RackPairDesign(ToothedDesign):
 
     kind: ClassVar[DesignKind] = DesignKind.RACK_PAIR
     elsewhere: ClassVar[str] = (
-        "a pinion and a rack are for `gearcad data`, build, draw, check, rate, stiffness, dynamics and verify"
+        "a pinion and a rack are for `gearcad data`, build, draw, mesh, check, rate, stiffness, dynamics and verify"
     )
 
     pair: RackPair
     material: Materials | None = None
     load: Load | None = None
     check: CheckOptions | None = None
+    mesh: MeshOptions | None = None
     dynamics: DynamicsOptions | None = None
     rating: RatingOptions | None = None
 

@@ -287,7 +287,7 @@ MOST_ROWS = 1_000_000
 _BESIDE = {
     DesignKind.GEAR: ("material", "load", "drawing", "verify"),
     DesignKind.RACK: ("material", "drawing", "verify"),
-    DesignKind.RACK_PAIR: ("material", "load", "check", "dynamics", "rating", "drawing", "verify"),
+    DesignKind.RACK_PAIR: ("material", "load", "check", "mesh", "dynamics", "rating", "drawing", "verify"),
     DesignKind.SPLINE: ("material", "load", "drawing", "mesh", "verify"),
 }
 """Tables beside those of the teeth whose keys may vary; a pair has all others."""

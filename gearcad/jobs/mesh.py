@@ -14,9 +14,10 @@ from gearcad.core.records import JsonObject, Notice, PerGear, Role
 from gearcad.core.runtime import Agenda, Expected, Progress
 from gearcad.decks.pair import PairDecks
 from gearcad.decks.plane import PlaneDecks, plane_tooth_deck
+from gearcad.decks.rack import plane_decks
 from gearcad.decks.solid import SolidDecks, shaft_task, solid_task, solid_tooth_deck
-from gearcad.designs import Design, DesignKind, GearedDesign, Inputs, PairDesign, SplineDesign
-from gearcad.geometry import Gear, GearPair
+from gearcad.designs import Design, DesignKind, GearedDesign, Inputs, PairDesign, RackPairDesign, SplineDesign
+from gearcad.geometry import Gear, GearPair, RackPair
 from gearcad.jobs.job import Job, Writer, as_design
 from gearcad.jobs.train import suited
 from gearcad.load import Load
@@ -25,7 +26,7 @@ from gearcad.meshing.bodies.body_mesh import contacts
 from gearcad.meshing.bodies.sectors import ContactRefinement
 from gearcad.meshing.fem import Element
 from gearcad.meshing.options import SUFFIXES, DeckKind, MeshOptions
-from gearcad.meshing.plan import MeshPlan, expected_mesh, plan_mesh, require_room
+from gearcad.meshing.plan import MeshPlan, expected_mesh, plan_mesh, plan_rack_mesh, replace_zones, require_room
 from gearcad.meshing.result import Deck, MeshResult, mesh_document, run_mesh
 from gearcad.rating.contact_stress import base_normal_force, contact_at
 
@@ -65,7 +66,7 @@ def contact_zones(
     )
 
 
-def make_decks(design: PairDesign, plan: MeshPlan, progress: Progress | None) -> dict[str, Deck]:
+def make_decks(design: PairDesign | RackPairDesign, plan: MeshPlan, progress: Progress | None) -> dict[str, Deck]:
     """Return the decks that the options of a plan ask for, by the names of their files.
 
     Raises ParameterError, GeometryError and SolverError for what cannot be checked.
@@ -73,6 +74,9 @@ def make_decks(design: PairDesign, plan: MeshPlan, progress: Progress | None) ->
     if not plan.options.decks:
         return {}
     makers = dict[str, Callable[[], Deck]]()
+    if isinstance(design, RackPairDesign):
+        own = plane_decks(_rack_task(design))
+        return {f"pair_deck{place}.inp": own.at(angle) for place, angle in _places(plan.options, own)}
     if set(plan.options.decks) - {DeckKind.SHAFTS}:
         makers |= dict(_makers(plan.options, *_decks(design, plan)))
     if DeckKind.SHAFTS in plan.options.decks:
@@ -122,7 +126,7 @@ def _task(design: PairDesign, model: Model) -> CheckTask:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Mesh(Job[GearedDesign | SplineDesign, MeshResult]):
+class Mesh(Job[GearedDesign | RackPairDesign | SplineDesign, MeshResult]):
     """Meshes of a design in the formats of its options: `gear.vtu`, or `pinion.vtu` and `wheel.vtu`, or `pair.vtu` in mesh; of
     a spline `shaft.vtu` and `hub.vtu`.
 
@@ -130,7 +134,7 @@ class Mesh(Job[GearedDesign | SplineDesign, MeshResult]):
     """
 
     verb = "mesh"
-    accepts = (DesignKind.GEAR, DesignKind.PAIR, DesignKind.SPLINE)
+    accepts = (DesignKind.GEAR, DesignKind.PAIR, DesignKind.RACK_PAIR, DesignKind.SPLINE)
     why = "there are no teeth"
     writes_long = True
 
@@ -143,10 +147,10 @@ class Mesh(Job[GearedDesign | SplineDesign, MeshResult]):
         design = self.accepted(design, progress)
         plan = self._plan(design)
         require_room(plan)
-        decks = make_decks(design, plan, progress) if isinstance(design, PairDesign) else {}
+        decks = make_decks(design, plan, progress) if isinstance(design, PairDesign | RackPairDesign) else {}
         return replace(run_mesh(plan, design.name, progress), decks=decks)
 
-    def _plan(self, design: GearedDesign | SplineDesign) -> MeshPlan:
+    def _plan(self, design: GearedDesign | RackPairDesign | SplineDesign) -> MeshPlan:
         options = replace(design.mesh or MeshOptions(), **self.given)
         for kind in options.formats:
             kind.require()
@@ -154,11 +158,13 @@ class Mesh(Job[GearedDesign | SplineDesign, MeshResult]):
             if "gear" in self.given:
                 raise ParameterError("gear", self.given["gear"], "must be left out: shaft and hub of a spline are both meshed")
             return plan_mesh(options, design.gears, None).counted()
+        if isinstance(design, RackPairDesign):
+            return _rack_plan(design, options)
         pair = design.assembly
         if pair is not None and design.mounting is not None:
             pair = design.mounting.mounted(pair)
         plan = plan_mesh(options, design.gears, pair)
-        if plan.pair is not None and design.load is not None and isinstance(design, PairDesign):
+        if isinstance(plan.pair, GearPair) and design.load is not None and isinstance(design, PairDesign):
             plan = _pressed(plan, plan.pair, design.material or Material(), design.load)
         return plan.counted()
 
@@ -198,6 +204,22 @@ class Mesh(Job[GearedDesign | SplineDesign, MeshResult]):
         return {"passed": document["passed"], **document["summary"], "warnings": document["warnings"]}
 
 
+def _rack_plan(design: RackPairDesign, options: MeshOptions) -> MeshPlan:
+    """Return the plan of a pinion and a rack; in mesh, under a load, their flanks are fine where our own check has contact."""
+    plan, load = plan_rack_mesh(options, design.pair), design.load
+    if plan.pair is None or load is None or not load.torque:
+        return plan
+    decks = plane_decks(_rack_task(design))
+    zones = PerGear.each(lambda role: decks.zones(options.roll, role))
+    fine = {"pinion": replace_zones(plan.gears["pinion"], zones.pinion), "rack": replace_zones(plan.gears["rack"], zones.wheel)}
+    return replace(plan, gears=fine, left=load.torque > 0)
+
+
+def _rack_task(design: RackPairDesign) -> CheckTask:
+    """Return the check of sections of a pinion and a rack."""
+    return design.check_task("a deck is of pressed flanks", replace(design.check or CheckOptions(), model="section"))
+
+
 def _pressed(plan: MeshPlan, pair: GearPair, material: Materials, load: Load) -> MeshPlan:
     """Return the plan of a pair in mesh with the flanks that its load presses, and where these are meshed finely.
 
@@ -211,7 +233,7 @@ def _pressed(plan: MeshPlan, pair: GearPair, material: Materials, load: Load) ->
 
 
 def mesh(
-    subject: Design | GearPair | Gear,
+    subject: Design | GearPair | RackPair | Gear,
     load: Load | None = None,
     *,
     progress: Progress | None = None,

@@ -6,23 +6,34 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
 from gearcad.core.errors import GeometryError, InputError, ParameterError
 from gearcad.core.records import Notice, PerGear, grouped
 from gearcad.core.runtime import Expected, Share, machine_memory
-from gearcad.geometry import Gear, GearPair
+from gearcad.geometry import Gear, GearPair, Rack, RackPair
 from gearcad.geometry.bore_teeth import with_round_bore
 from gearcad.meshing.bodies.body_mesh import Amount, body_sizes, expected_amount, factor_for, mesh_body, swept_notices
 from gearcad.meshing.bodies.element_mesh import ElementMesh
-from gearcad.meshing.bodies.exactness import exact_area, exact_volume
+from gearcad.meshing.bodies.exactness import (
+    Deviations,
+    SideDeviations,
+    deviations,
+    exact_area,
+    exact_volume,
+    matched_distance,
+    side_deviations,
+)
 from gearcad.meshing.bodies.gear_faces import FILLET_ANGLE, Stage, TetrahedronGrading
+from gearcad.meshing.bodies.rack_exactness import exact_strip_area, strip_deviations, strip_side_deviations
+from gearcad.meshing.bodies.rack_mesh import mesh_strip, strip_teeth
 from gearcad.meshing.bodies.section_mesh import mesh_section
 from gearcad.meshing.bodies.sectors import ContactRefinement
 from gearcad.meshing.bodies.tetrahedra import mesh_tetrahedra
 from gearcad.meshing.fem import Element
-from gearcad.meshing.options import AUTO, Extent, MeshOptions, What
+from gearcad.meshing.options import AUTO, DeckKind, Extent, MeshOptions, What
 from gearcad.meshing.outline import MeshSizes, held_radius, round_bore_notice
 from gearcad.solids.exact.inertia import mass_properties
 
@@ -30,11 +41,24 @@ _OF_VOLUME = 1e9
 """Density (kg/m³) whose mass in kg is the volume in mm³."""
 
 
+class Offsets(NamedTuple):
+    """Distances of a mesh from the exact flanks and fillets and from the other sides, and of matched cuts (mm)."""
+
+    teeth: Deviations
+    others: SideDeviations
+    unmatched: float
+
+
 @dataclass(frozen=True, kw_only=True)
 class GearPlan(ABC):
-    """Plan for the mesh of one gear."""
+    """Plan for the mesh of one gear, or of a rack."""
 
-    gear: Gear
+    gear: Gear | Rack
+
+    @property
+    @abstractmethod
+    def every_tooth(self) -> int:
+        """Teeth of the whole gear."""
 
     @property
     @abstractmethod
@@ -60,6 +84,10 @@ class GearPlan(ABC):
     def mesh(self, share: Share) -> ElementMesh:
         """Return the mesh, in the gear's coordinates. Raises ParameterError, GeometryError and SolverError."""
 
+    @abstractmethod
+    def offsets(self, mesh: ElementMesh) -> Offsets:
+        """Return how far the mesh is from the exact gear."""
+
     @property
     def notices(self) -> Iterable[Notice]:
         """Notices to read before the mesh is used."""
@@ -67,7 +95,23 @@ class GearPlan(ABC):
 
 
 @dataclass(frozen=True, kw_only=True)
-class SectorsPlan(GearPlan):
+class WheelPlan(GearPlan):
+    """Plan for the mesh of one gear that is no rack."""
+
+    gear: Gear
+
+    @property
+    def every_tooth(self) -> int:
+        return self.gear.teeth
+
+    def offsets(self, mesh: ElementMesh) -> Offsets:
+        gear = self.gear
+        others = side_deviations(mesh, gear, self.end_radius)
+        return Offsets(deviations(mesh, gear), others, matched_distance(mesh, gear, self.count))
+
+
+@dataclass(frozen=True, kw_only=True)
+class SectorsPlan(WheelPlan):
     """`teeth` of a gear, None for all, up to `held_radius` (mm), 0 for a full disc; short edges where they touch others."""
 
     element: Element
@@ -131,7 +175,39 @@ class SectorsPlan(GearPlan):
 
 
 @dataclass(frozen=True, kw_only=True)
-class PartPlan(GearPlan):
+class RackPlan(GearPlan):
+    """A strip of so many `teeth` of a rack, in triangles; short edges where they touch others."""
+
+    gear: Rack
+    teeth: int
+    sizes: MeshSizes
+    contacts: Mapping[int, ContactRefinement] = field(default_factory=dict)
+
+    @property
+    def every_tooth(self) -> int:
+        return self.gear.whole_pitches
+
+    @property
+    def count(self) -> int:
+        return self.teeth
+
+    @property
+    def end_radius(self) -> float:
+        return 0.0
+
+    @property
+    def exact(self) -> float:
+        return exact_strip_area(self.gear, self.teeth)
+
+    def mesh(self, _share: Share) -> ElementMesh:
+        return mesh_strip(self.gear, teeth=self.teeth, sizes=self.sizes, contacts=self.contacts)
+
+    def offsets(self, mesh: ElementMesh) -> Offsets:
+        return Offsets(strip_deviations(mesh, self.gear), strip_side_deviations(mesh, self.gear), 0.0)
+
+
+@dataclass(frozen=True, kw_only=True)
+class PartPlan(WheelPlan):
     """The whole part in tetrahedra: edges of `size` (mm) on teeth, or so many `elements`; some teeth have finer ones."""
 
     size: float | None
@@ -180,7 +256,7 @@ class MeshPlan:
     """
 
     gears: Mapping[str, GearPlan]
-    pair: GearPair | None
+    pair: GearPair | RackPair | None
     extent: Extent
     element: Element
     options: MeshOptions
@@ -209,7 +285,7 @@ class MeshPlan:
 
     def pressed(self, zones: PerGear[Mapping[int, ContactRefinement]], *, left: bool) -> MeshPlan:
         """Return the plan of a pair whose left or right flanks are pressed: they are fine in zones, by teeth."""
-        fine = {role.value: _with_zones(self.gears[role.value], each) for role, each in zones.items()}
+        fine = {role.value: replace_zones(self.gears[role.value], each) for role, each in zones.items()}
         return replace(self, gears=fine, left=left)
 
     def counted(self) -> MeshPlan:
@@ -239,12 +315,45 @@ class MeshPlan:
         }
 
 
-def _with_zones(plan: GearPlan, zones: Mapping[int, ContactRefinement]) -> GearPlan:
+def replace_zones(plan: GearPlan, zones: Mapping[int, ContactRefinement]) -> GearPlan:
     """Return a gear that is fine where it touches: in zones, or on the whole teeth of a part."""
     if isinstance(plan, PartPlan):
         return replace(plan, refined_teeth=(*plan.refined_teeth, *zones))
+    if isinstance(plan, RackPlan):
+        return replace(plan, contacts=zones)
     assert isinstance(plan, SectorsPlan)
     return replace(plan, contacts=zones)
+
+
+def plan_rack_mesh(options: MeshOptions, pair: RackPair) -> MeshPlan:
+    """Return the plan of the sections of a pinion and a rack, in mesh unless teeth are asked for.
+
+    Raises ParameterError and GeometryError.
+    """
+    helix, extent = pair.pinion.helix_angle, options.extent or Extent(What.PAIR)
+    if options.model == "3d" or (helix and options.model == AUTO):
+        raise ParameterError("model", options.model, 'must be "2d" for a rack, which is meshed as a section')
+    if options.element not in (AUTO, Element.TRI6.value):
+        raise ParameterError("element", options.element, "must be tri6 for a rack")
+    if options.gear != "both":
+        raise ParameterError("gear", options.gear, "must be left out for a rack: pinion and rack are both meshed")
+    if options.elements is not None:
+        raise ParameterError("elements", options.elements, "must be left out for a rack: give a size (mm)")
+    if extent.what not in (What.PAIR, What.TEETH):
+        raise GeometryError("what", options.what, "must be pair, pair:5, teeth:5 or the like for a rack")
+    if set(options.decks) - {DeckKind.PAIR}:
+        raise GeometryError("deck", options.deck, "must be pair, or left out, for a rack")
+    sizes = body_sizes(pair.pinion, options.size)
+    if options.fillet_elements is not None:
+        sizes = replace(sizes, fillet_turn=FILLET_ANGLE / options.fillet_elements)
+    teeth = strip_teeth(pair.rack) if extent.teeth is None else extent.teeth
+    if teeth > pair.rack.whole_pitches:
+        raise GeometryError("what", options.what, f"must be of at most {pair.rack.whole_pitches} teeth, which the rack has")
+    own = extent.teeth if extent.teeth is not None and extent.teeth < pair.pinion.teeth else None
+    radius = held_radius(pair.pinion)
+    pinion = SectorsPlan(gear=pair.pinion, element=Element.TRI6, teeth=own, held_radius=radius, sizes=sizes)
+    plans = {"pinion": pinion, "rack": RackPlan(gear=pair.rack, teeth=teeth, sizes=sizes)}
+    return MeshPlan(plans, pair if extent.what is What.PAIR else None, extent, Element.TRI6, options)
 
 
 def plan_mesh(options: MeshOptions, gears: Mapping[str, Gear], pair: GearPair | None) -> MeshPlan:

@@ -10,10 +10,10 @@ from typing import Any, Protocol
 
 from gearcad.core.records import JsonObject, Notice, PerGear, Pictured, naming, texts
 from gearcad.core.runtime import Agenda, Progress
-from gearcad.geometry import Gear
+from gearcad.geometry import Gear, Rack, RackPair
 from gearcad.meshing.bodies.body_mesh import posed
 from gearcad.meshing.bodies.element_mesh import ElementMesh
-from gearcad.meshing.bodies.exactness import Deviations, SideDeviations, deviations, matched_distance, side_deviations
+from gearcad.meshing.bodies.exactness import Deviations, SideDeviations
 from gearcad.meshing.bodies.quality import (
     LARGEST_ASPECT,
     LEAST_SCALED_JACOBIAN,
@@ -25,6 +25,7 @@ from gearcad.meshing.bodies.quality import (
     require_good,
     together,
 )
+from gearcad.meshing.bodies.rack_mesh import rack_posed
 from gearcad.meshing.fem import Element
 from gearcad.meshing.plan import GearPlan, MeshPlan
 from gearcad.version import __version__
@@ -62,12 +63,14 @@ class Gate:
 class JudgedMesh:
     """Judgement of the mesh of one gear, in the gear's own coordinates.
 
-    `teeth` are those that are meshed; `others` are the sides that are no flanks and fillets; `unmatched` is by how much (mm)
-    nodes of cuts miss each other; `exact` is the area (mm²) of a section or the volume (mm³) of a body that the gear has there.
+    `teeth` are those that are meshed, of `every_tooth`; `others` are the sides that are no flanks and fillets; `unmatched` is
+    by how much (mm) nodes of cuts miss each other; `exact` is the area (mm²) of a section, or the volume (mm³) of a body, that
+    the gear has there.
     """
 
-    gear: Gear
+    gear: Gear | Rack
     teeth: int
+    every_tooth: int
     nodes: int
     elements: int
     bytes: int
@@ -262,7 +265,10 @@ def run_mesh(plan: MeshPlan, name: str, progress: Progress | None = None) -> Mes
             meshes[role] = each.mesh(agenda.within(f"{_MESHING} {role}"))
         agenda(f"{_JUDGING} {role}")
         judged[role] = _judged(meshes[role], each, plan)
-    if plan.pair is not None:
+    if isinstance(plan.pair, RackPair):
+        sections = PerGear(meshes.pop("pinion"), meshes.pop("rack"))
+        meshes["pair"] = rack_posed(plan.pair, sections, plan.options.roll, left=plan.left)
+    elif plan.pair is not None:
         gears = PerGear(meshes.pop("pinion"), meshes.pop("wheel"))
         meshes["pair"] = posed(plan.pair, gears, plan.options.roll, left=plan.left)
     return MeshResult(name, plan, meshes, judged)
@@ -273,18 +279,20 @@ def _judged(mesh: ElementMesh, planned: GearPlan, plan: MeshPlan) -> JudgedMesh:
     measured = quality(mesh)
     require_good(measured, _FOLDED)
     sides = {name: (len(faces), measure_side(mesh, name)) for name, faces in mesh.sides.items()}
+    offsets = planned.offsets(mesh)
     judged = JudgedMesh(
         gear=planned.gear,
         teeth=planned.count,
+        every_tooth=planned.every_tooth,
         nodes=len(mesh.points),
         elements=len(mesh.cells),
         bytes=mesh.nbytes,
         sides=sides,
         matched={cut: len(pairs) for cut, pairs in mesh.matched.items()},
         quality=measured,
-        deviations=deviations(mesh, planned.gear),
-        others=side_deviations(mesh, planned.gear, planned.end_radius),
-        unmatched=matched_distance(mesh, planned.gear, planned.count),
+        deviations=offsets.teeth,
+        others=offsets.others,
+        unmatched=offsets.unmatched,
         exact=planned.exact,
     )
     return replace(judged, gates=tuple(_gates(judged, plan)))

@@ -59,7 +59,7 @@ def test_stiffness_of_a_rack_has_three_methods_and_says_why_not_the_others(here:
     assert "Weber-Banaschek: left out: pair = 'pinion and rack': must be two gears for weber-banaschek" in result.output
 
 
-@pytest.mark.parametrize("content", [HELICAL, PAIR])
+@pytest.mark.parametrize("content", [PAIR, pytest.param(HELICAL, marks=pytest.mark.long)])
 @pytest.mark.usefixtures("no_pictures")
 def test_sections_of_helical_gears_are_said_to_be_sections(here: Path, content: str) -> None:
     rated = content.replace("[check]", "[material]\nroot_limit = 50.0\n[rating]\nrequired_safety_root = 1.4\n[check]")

@@ -19,12 +19,10 @@ from gearcad.contact.shared.bodies import Cuts, Support
 from gearcad.core.errors import GeometryError
 from gearcad.core.records import Floats, Wholes
 from gearcad.geometry import Rack
+from gearcad.meshing.bodies.rack_mesh import strip_teeth
 from gearcad.meshing.outline import MeshSizes, OutlineSide
 from gearcad.meshing.rack_section import mesh_rack_sector
 from gearcad.meshing.sector import SectorMesh
-
-_REACH = 6.0
-"""Length of the strip on each side of the loaded tooth, over its height: what the ends do to it is below 1e-5."""
 
 
 @dataclass(frozen=True)
@@ -84,7 +82,7 @@ class RackFlank(SectionFlank):
 
 
 def rack_body(
-    rack: Rack, elasticity: PlaneElasticity, neighbours: int, sizes: MeshSizes | None = None, reach: float = _REACH
+    rack: Rack, elasticity: PlaneElasticity, neighbours: int, sizes: MeshSizes | None = None, reach: float | None = None
 ) -> PlaneCompliance:
     """Return a strip of a rack's teeth, held along its back, with `neighbours` in full on each side of the loaded tooth.
 
@@ -96,8 +94,7 @@ def rack_body(
         permitted = f"must be at least {full} here: so many teeth carry or stand beside one that does"
         raise GeometryError("rack.teeth", rack.whole_pitches, permitted)
     sizes = sizes or MeshSizes()
-    aside = min(math.ceil(reach * (rack.height + rack.tip_height) / rack.transverse_pitch), (rack.whole_pitches - 1) // 2)
+    held = strip_teeth(rack, full) if reach is None else strip_teeth(rack, full, reach)
     fine, coarse = mesh_rack_sector(rack, sizes), mesh_rack_sector(rack, sizes.coarse())
-    held = max(2 * aside + 1, full)
     ring = assemble(fine, coarse, held, neighbours, elasticity, held, Cuts.FREE, Support(teeth=held))
     return solved_flank(RackFlank.of(rack, fine), ring, elasticity)

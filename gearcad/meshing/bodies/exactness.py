@@ -98,6 +98,10 @@ at 0.
 """
 
 
+Distances = Callable[[Floats], Floats]
+"""Distances (n,) in mm of points (n, 3)."""
+
+
 @dataclass(frozen=True)
 class Deviations:
     """Greatest distances from the exact, modified flanks and fillets: of nodes (mm), and of faces between them (µm).
@@ -123,11 +127,16 @@ def deviations(mesh: ElementMesh, gear: Gear) -> Deviations:
 
     Faces are looked at on a grid of 5 x 5 places.
     """
-    nodes, between, worst = 0.0, 0.0, ""
     solid = mesh.element.shape.dimension == 3
-    for name, surface in _surfaces(mesh, gear, solid=solid):
-        nodes = max(nodes, float(surface.distances(mesh.points[mesh.nodes(name)]).max()))
-        off = 1000 * max(float(surface.distances(samples).max()) for samples in face_samples(mesh, name))
+    return greatest_deviations(mesh, ((name, each.distances) for name, each in _surfaces(mesh, gear, solid=solid)))
+
+
+def greatest_deviations(mesh: ElementMesh, sides: Iterable[tuple[str, Distances]]) -> Deviations:
+    """Return the greatest distances of sides that functions measure: of their nodes, and of their faces between them."""
+    nodes, between, worst = 0.0, 0.0, ""
+    for name, distances in sides:
+        nodes = max(nodes, float(distances(mesh.points[mesh.nodes(name)]).max()))
+        off = 1000 * max(float(distances(samples).max()) for samples in face_samples(mesh, name))
         if off > between * (1 + _ALIKE) or not worst:
             worst = name
         between = max(between, off)
@@ -242,10 +251,6 @@ def _places(face: str) -> Floats:
     return np.array([[a, b] for a in line for b in line])
 
 
-_Distances = Callable[[Floats], Floats]
-"""Distances (n,) in mm of points (n, 3)."""
-
-
 @dataclass(frozen=True)
 class SideDeviations:
     """Greatest distances from the exact sides: of nodes (mm), of which `worst` is the side, and of faces between them (µm)."""
@@ -264,8 +269,13 @@ def side_deviations(mesh: ElementMesh, gear: Gear, held_radius: float) -> SideDe
 
     Flat ends are as flat between their nodes as at these.
     """
+    return greatest_of_sides(mesh, _sides(mesh, gear, held_radius))
+
+
+def greatest_of_sides(mesh: ElementMesh, sides: Iterable[tuple[str, Distances, bool]]) -> SideDeviations:
+    """Return the greatest distances of sides that functions measure; those of flat ones between nodes are left out."""
     nodes, between, worst = 0.0, 0.0, ""
-    for name, distances, flat in _sides(mesh, gear, held_radius):
+    for name, distances, flat in sides:
         off = float(distances(mesh.points[mesh.nodes(name)]).max())
         if not off <= nodes or not worst:
             nodes, worst = off, name
@@ -283,7 +293,7 @@ def matched_distance(mesh: ElementMesh, gear: Gear, teeth: int) -> float:
     return max((float(np.linalg.norm(off, axis=-1).max()) for off in every), default=0.0)
 
 
-def _sides(mesh: ElementMesh, gear: Gear, held_radius: float) -> Iterator[tuple[str, _Distances, bool]]:
+def _sides(mesh: ElementMesh, gear: Gear, held_radius: float) -> Iterator[tuple[str, Distances, bool]]:
     """Yield the sides that are measured, the functions that measure them, and whether they are flat."""
     back, front = gear.body.hub_ends
     radii = {body_side(gear): held_radius, "hub": gear.body.hub_diameter / 2}
