@@ -23,10 +23,15 @@ from gearcad.exchange.rexs_import import RexsImport
 
 DATA = Path(__file__).parents[1] / "data"
 
-STARTERS = (
-    *("alm-18-161", "double-23-81", "fzg-c", "ground-25-41", "reducer-21-43", "ring-22-70", "spur", "uhlir-19-23"),
-    *("uhlir-19-23-simple", "volvo-13-44", "wire-cut", "plastic-51-52"),
-)
+
+def starters_of_gears_and_pairs() -> list[str]:
+    """Return the names of all starters that can be exported: a new one is among them by itself."""
+    others = {"planetary", "measured", "train", "rack", "spline"}
+    tables = {path.stem: tomllib.loads(path.read_text(encoding="utf-8")) for path in sorted(TEMPLATES.glob("*.toml"))}
+    return [name for name, found in tables.items() if found.keys() & {"pinion", "gear"} and not found.keys() & others]
+
+
+STARTERS = starters_of_gears_and_pairs()
 
 ON_SHAFTS = """
 [pair]
@@ -101,11 +106,8 @@ def test_starters_come_back(name: str, tmp_path: Path) -> None:
     require_same(read_spec(TEMPLATES / f"{name}.toml"), tmp_path)
 
 
-def test_all_starters_of_gears_and_pairs_are_among_them() -> None:
-    others = {"planetary", "measured", "train", "rack", "spline"}
-    tables = {path.stem: tomllib.loads(path.read_text(encoding="utf-8")) for path in TEMPLATES.glob("*.toml")}
-    ours = {name for name, found in tables.items() if found.keys() & {"pinion", "gear"} and not found.keys() & others}
-    assert ours == {*STARTERS}
+def test_starters_are_found() -> None:
+    assert {"reducer-21-43", "ring-22-70", "spur", "volvo-13-44"} < {*STARTERS}
 
 
 @pytest.mark.parametrize(("count", "seed"), [(25, 1), pytest.param(100, 2, marks=pytest.mark.long)])
