@@ -113,16 +113,23 @@ def _read_3mf(path: Path, known: dict[bytes, Trimesh]) -> list[FacetPart]:
     objects = {each.get("id"): each for each in root.iter(f"{space}object")}
     found = []
     for item in root.iter(f"{space}item"):
-        body = objects[item.get("objectid")]
-        place = np.eye(4)
-        if given := item.get("transform"):
-            place[:3] = np.array(given.split(), float).reshape(4, 3).T
+        body, place = objects[item.get("objectid")], _place_in_3mf(item)
+        while (component := next(body.iter(f"{space}component"), None)) is not None:  # the same gear in several places
+            body, place = objects[component.get("objectid")], place @ _place_in_3mf(component)
         shades = colours.get(body.get("pid"))
         colour = "" if shades is None else shades[int(body.get("pindex", "0"))]
         number = next((each.get(_NUMBER) for each in body.iter(f"{space}mesh")), None)
         mesh = _mesh_of(body, space) if number is None else _known_mesh(pieces[int(number)][0], known)
         found.append(FacetPart(body.get("name", ""), mesh, place, colour, root.get("unit", "millimeter")))
     return found
+
+
+def _place_in_3mf(element: ElementTree.Element) -> Floats:
+    """Return the place (4, 4) of an item or a component of a 3MF, that of its parent without a transform of its own."""
+    place = np.eye(4)
+    if given := element.get("transform"):
+        place[:3] = np.array(given.split(), float).reshape(4, 3).T
+    return place
 
 
 def _known_mesh(text: bytes, known: dict[bytes, Trimesh]) -> Trimesh:

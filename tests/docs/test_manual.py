@@ -1,6 +1,7 @@
 """The manual: what its pages show is what comes out; every command, public name, key and quantity has its place in it."""
 
 import re
+import runpy
 import socket
 import sys
 from collections.abc import Iterator
@@ -238,3 +239,14 @@ def test_default_of_a_field_is_that_of_its_class() -> None:
         for name, field in schema_of(kind).items():
             if not (field.required or field.optional):
                 assert getattr(made, name) == field.default, name
+
+
+def test_gallery_page_has_all_its_designs(tmp_path):
+    """The page is what its script writes; each of thirty specs is a design with a picture, a spec and a STEP file."""
+    gallery = runpy.run_path(str(DOCS / "figures" / "gallery.py"))
+    page = (DOCS / "gallery.md").read_text(encoding="utf-8")
+    assert page == gallery["page"]()
+    assert set(re.findall(r"/figures/made/([\w.-]+)", page)) == set(gallery["FIGURES"])
+    designs = [gearcad.read(spec) for spec in gallery["write_specs"](tmp_path)]
+    assert len(designs) == len(set(gallery["NAMES"])) == 30
+    assert {design.kind.value for design in designs} == {"gear", "pair", "rack", "rack_pair", "planetary", "train"}

@@ -47,7 +47,7 @@ def run_freecad(folder: Path, texts: dict[str, str], parts: str) -> dict[str, An
     install_workbench(home)
     environment = freecad_environment(home, WORKBENCH_TEST=str(folder), WORKBENCH_PARTS=parts)
     script = Path(__file__).with_name("lifecycle.py")
-    subprocess.run([FREECAD, str(script)], env=environment, capture_output=True, timeout=1200, check=False, cwd=folder)
+    subprocess.run([FREECAD, str(script)], env=environment, capture_output=True, timeout=3600, check=False, cwd=folder)
     found: dict[str, Any] = json.loads((folder / "figures.json").read_text(encoding="utf-8"))
     assert "error" not in found, found["error"]
     return found

@@ -24,6 +24,7 @@ from gearcad.solids import FileOptions, Format
 from gearcad.solids.exact.solid import cad_solid
 from gearcad.solids.files.train_products import TrainProduct, turning_of
 from gearcad.solids.train_plan import TrainLayout
+from gearcad.verification.facets import read_facets
 
 COARSE = FileOptions(chord_error=0.05)
 
@@ -171,6 +172,19 @@ def test_3mf_holds_each_mesh_once_and_every_part_by_name(tmp_path: Path) -> None
     volumes = [part.facets.volume for part in solids]
     assert sorted(part.volume for part in parts) == pytest.approx(sorted(volumes), rel=1e-5)
     assert all(part.is_watertight for part in parts)
+
+
+def test_verify_reads_a_gear_in_several_places_from_3mf_as_from_glb(tmp_path: Path) -> None:
+    """Our reader follows the components of 3MF; that of GLB is trimesh's."""
+    found = {}
+    for kind in (Format.THREE_MF, Format.GLB):
+        parts = read_facets(_write(small_train(), kind, tmp_path, carrier=True))
+        places = [(part.name, *part.place[:3].ravel().round(4) + 0.0, len(part.mesh.faces)) for part in parts]
+        found[kind] = sorted(places)
+    assert len(found[Format.GLB]) > 9
+    for ours, theirs in zip(found[Format.THREE_MF], found[Format.GLB], strict=True):
+        assert (ours[0], ours[-1]) == (theirs[0], theirs[-1])
+        assert ours[1:-1] == pytest.approx(theirs[1:-1], abs=2e-4)
 
 
 def test_a_carriers_facets_are_its_solid() -> None:
