@@ -355,11 +355,15 @@ def _carrier(spec: PlanetarySpec) -> Carrier:
             raise type(error)(f"carrier.{field}", error.value, error.permitted, error.unit) from error
 
 
+_OF_STAGE = ("angle", "axial_position", "pinion_inertia", "wheel_inertia")
+"""Keys of a stage beside those of its pair."""
+
+
 def _stage(spec: PlanetarySpec, owner: str, wheel_on: str) -> PairStage:
     """Return the pair of a table; of a pre-stage the wheel is on the carrier, unless it says otherwise."""
     given = {key: spec.values[f"{owner}.{key}"] for key in spec.fields_of(owner)}
     name = spec.stage_name(owner)
-    of_stage = {key: given[key].value for key in ("angle", "axial_position") if key in given}
+    of_stage = {key: given[key].value for key in _OF_STAGE if key in given}
     on = {role: given[f"{role.value}.on"].value for role in Role if f"{role.value}.on" in given}
     of_pair = {
         key if key.partition(".")[0] in (role.value for role in Role) else f"pair.{key}": value

@@ -204,7 +204,9 @@ class PairStage(NamedPart):
 
     One of the two is a member of the set - of a pre-stage the wheel is the carrier - or of a stage before it; the other is a
     shaft of its own. `angle` (degrees) is where the axis that is not the train's lies, seen from the train's axis, from +x.
-    Without `axial_position` (mm) the train puts it beside the set. Raises ParameterError.
+    Without `axial_position` (mm) the train puts it beside the set. `pinion_inertia` and `wheel_inertia` (kg·m²) are those of
+    what turns with each gear beside the members of the set, the gear included: at the ratios of the stages they are added to
+    the member of the set that turns with them, by teeth that do not give way. None is not counted. Raises ParameterError.
     """
 
     name: str
@@ -213,6 +215,8 @@ class PairStage(NamedPart):
     wheel: str
     angle: Annotated[float, _ANGLE, Words("direction of the other axis")] = 0.0
     axial_position: Annotated[float, OFFSET, Words("axial position of the pinion's teeth")] = NOT_GIVEN
+    pinion_inertia: Annotated[float | None, INERTIA, Words("inertia on the pinion's shaft", "J")] = None
+    wheel_inertia: Annotated[float | None, INERTIA, Words("inertia on the wheel's shaft", "J")] = None
 
     __repr__ = concise
 

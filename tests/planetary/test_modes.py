@@ -8,10 +8,17 @@ import pytest
 from scipy.linalg import eigh
 from scipy.optimize import brentq
 from support.planetary import thesis_train
-from support.planetary_trains import MASSES, TRAINS, lin_parker_train, masses_of, on_springs
+from support.planetary_trains import MASSES, TRAINS, alm_set, lin_parker_train, masses_of, on_springs, pre_stage
 
 from gearcad.core.errors import GeometryError, ParameterError
-from gearcad.dynamics.planetary.planar_model import MemberMass, PlanarTrain, TrainMasses, springs_of, train_springs
+from gearcad.dynamics.planetary.planar_model import (
+    MemberMass,
+    PlanarTrain,
+    TrainMasses,
+    springs_of,
+    train_masses,
+    train_springs,
+)
 from gearcad.dynamics.planetary.planetary_modes import (
     LineKind,
     ModeKind,
@@ -22,8 +29,9 @@ from gearcad.dynamics.planetary.planetary_modes import (
     planetary_campbell,
     planetary_modes,
 )
-from gearcad.planetary import PlanetaryTrain
+from gearcad.planetary import Carrier, PlanetaryTrain
 from gearcad.planetary.poses import train_harmonics
+from gearcad.planetary.train_data import speeds
 
 STIFFNESS = (400.0, 500.0)
 ELASTIC = {"support": 60.0, "pin": 200.0, "torsion": 1e5}
@@ -388,3 +396,16 @@ def test_a_differential_needs_its_second_speed() -> None:
     assert campbell.lines[0].per_rpm == pytest.approx(24 * (3000 - carrier) / 60 / 3000)
     with pytest.raises(GeometryError, match="nothing meshes"):
         _campbell(train, 3000.0, given_speeds={"b": 3000.0})
+
+
+def test_inertias_of_stages_count_at_their_ratios() -> None:
+    """Kinetic energy by the exact speeds of all shafts is that of the members with what the stages add."""
+    train = alm_set(stages=(replace(pre_stage(), pinion_inertia=2e-5, wheel_inertia=3e-3),), input="pinion_1")
+    carrier = Carrier(mass=3.0, inertia=5e-3)
+    plain = train_masses(replace(train, carrier=carrier, stages=(pre_stage(),))).members
+    found = train_masses(replace(train, carrier=carrier)).members
+    turning = speeds(train, {"pinion_1": 1000.0}).members["carrier"]
+    energy = 5e-3 * turning**2 + 3e-3 * turning**2 + 2e-5 * 1000.0**2
+    assert found["carrier"].inertia == pytest.approx(energy / turning**2, rel=1e-12)
+    assert found["carrier"].mass == plain["carrier"].mass == 3.0 and plain["carrier"].inertia == 5e-3
+    assert found["ring_5"].inertia == plain["ring_5"].inertia

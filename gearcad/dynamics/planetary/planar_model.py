@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 
 import numpy as np
@@ -192,13 +192,28 @@ class TrainMasses:
 def train_masses(train: PlanetaryTrain, material: TrainMaterial | None = None) -> TrainMasses:
     """Return the masses of a train whose gears are of one `material`, or of one each, by the name of the central or rim.
 
-    A given mass or inertia wins; only others are computed from the solid.
+    A given mass or inertia wins; only others are computed from the solid. Those of stages are added to their members.
     """
     carrier, densities = train.carrier, _densities(train, material)
     members = {central.name: _central(central, densities[central.name]) for central in train.centrals}
+    members[carrier.name] = _carrier(train)
+    for name, more in _of_stages(train).items():
+        if (own := members[name]).inertia is not None:
+            members[name] = replace(own, inertia=own.inertia + more)
     rims = {rim.name: (rim.gear, densities[rim.name]) for rim in train.rims}
     planet = _either(rims, carrier.planet_mass, carrier.planet_inertia)
-    return TrainMasses(members={**members, carrier.name: _carrier(train)}, planet=planet)
+    return TrainMasses(members=members, planet=planet)
+
+
+def _of_stages(train: PlanetaryTrain) -> dict[str, float]:
+    """Return what the inertias of stages add to those of the members that turn with them: sum J (w/w_member)^2 (kg·m²)."""
+    shafts, found = shafts_of(train), dict[str, float]()
+    for stage in train.stages:
+        for end in ("pinion", "wheel"):
+            if (inertia := getattr(stage, f"{end}_inertia")) is not None:
+                shaft = shafts[getattr(stage, end)]
+                found[shaft.member] = found.get(shaft.member, 0.0) + inertia * float(shaft.speed_ratio) ** 2
+    return found
 
 
 def _densities(train: PlanetaryTrain, material: TrainMaterial | None) -> dict[str, float]:
