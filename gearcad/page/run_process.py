@@ -192,8 +192,17 @@ def _shown_dynamics(result: Any, document: JsonObject) -> JsonObject | None:
     return shown_dynamics(result, document)
 
 
+def _any(_design: Design) -> bool:
+    return True
+
+
+def _has_bodies(design: Design) -> bool:
+    """Return whether a design has solid bodies in contact: a rack has none."""
+    return design.kind is not DesignKind.RACK_PAIR
+
+
 def _check_run(model: str) -> RunKind:
-    return RunKind(job=_check(model), report="report.html", shown=_shown_check)
+    return RunKind(job=_check(model), report="report.html", shown=_shown_check, takes=_has_bodies if model == "3d" else _any)
 
 
 def _mesh_run(model: str, mesh: int) -> RunKind:
