@@ -9,7 +9,8 @@ from dataclasses import dataclass
 from gearcad.check.task import CheckTask
 from gearcad.contact.shared.loaded import Cycle
 from gearcad.core.records import Floats, JsonObject, Notice, freeze
-from gearcad.rating.friction import LAW_WORDS, MeshFriction, ohlendorf_loss_factor
+from gearcad.geometry.tooth_friction import MeshFriction, ohlendorf_loss_factor
+from gearcad.rating.friction import LAW_WORDS
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -14,11 +14,12 @@ from gearcad.contact.shared.loaded import LoadedCycle, LoadedPosition, PairConta
 from gearcad.core.errors import GeometryError, ParameterError
 from gearcad.core.records import PerGear, Role
 from gearcad.geometry import Gear, GearPair, RackPair
+from gearcad.geometry.tooth_friction import MeshFriction
 from gearcad.hardness_depth import depth_profile_of
 from gearcad.load import Load
 from gearcad.material import Material, Materials, TabledNumber, of_both
 from gearcad.mounting import Mounting, SupportCompliance
-from gearcad.rating.friction import MeshFriction, mesh_friction
+from gearcad.rating.friction import mesh_friction
 from gearcad.rating.load_factor_formulas import face_load_factor, helix_factors, root_face_load_factor, width_to_height
 from gearcad.rating.load_factors import BodyLoad, FaceLoadSource, deflection_of
 from gearcad.rating.nominal_rating import Rating, rate, rate_rack

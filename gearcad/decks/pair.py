@@ -29,12 +29,12 @@ from gearcad.decks.calculix import (
 )
 from gearcad.decks.shafts import DeckShaft
 from gearcad.geometry import GearPair, RackPair
+from gearcad.geometry.tooth_friction import sliding_levers
 from gearcad.meshing.bodies import ElementMesh
 from gearcad.meshing.bodies.body_mesh import posed, poses
 from gearcad.meshing.bodies.element_mesh import BACK, BORE, RIM
 from gearcad.meshing.bodies.sectors import ContactRefinement
 from gearcad.meshing.files import element_type, write_elements, write_nodes
-from gearcad.rating.friction import sliding_levers
 
 _PAIR = """\
 A pair of gears in mesh at the roll angle {roll_angle:.6g} deg, the pinion pressed against the wheel by {torque:.6g} N m.

@@ -12,6 +12,7 @@ from gearcad.core.errors import GeometryError, InputError, ParameterError, forma
 from gearcad.core.quantities import (
     APPLICATION_FACTOR,
     DEVIATION,
+    FRICTION,
     INERTIA,
     NOT_GIVEN,
     OFFSET,
@@ -19,6 +20,7 @@ from gearcad.core.quantities import (
     STIFFNESS,
     TORQUE,
     TORSIONAL_STIFFNESS,
+    WHEN_GIVEN,
     AssumedNumber,
     NamedPart,
     Range,
@@ -59,8 +61,9 @@ class TrainLoad:
     """`output_torque` or `input_torque` in N·m, negative if the output drives back, and `speed` of the input in rpm.
 
     `torque` is the old name of `output_torque`. `mesh_efficiency` is that of every mesh with the carrier at rest: 1 has no
-    losses. `application_factor` K_A multiplies the torque in the ratings, and so does `mesh_load_factor` K_gamma, by how much
-    the planet that carries most carries more than its share; None takes what is computed of the sharing. Raises ParameterError.
+    losses; `friction`, a coefficient of the flanks, gives it where it is not given itself. `application_factor` K_A multiplies
+    the torque in the ratings, and so does `mesh_load_factor` K_gamma, by how much the planet that carries most carries more
+    than its share; None takes what is computed of the sharing. Raises ParameterError.
     """
 
     output_torque: Annotated[float | None, TORQUE, Words("torque on the output", "T")] = None
@@ -72,6 +75,7 @@ class TrainLoad:
         1.0
     )
     mesh_load_factor: Annotated[float | None, _SHARING, Words("mesh load factor of the planets", "K_γ", "ISO 6336-1")] = None
+    friction: Annotated[float | None, FRICTION, Words("friction of the flanks", "µ"), WHEN_GIVEN] = None
 
     __repr__ = concise
 

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, field, replace
 from enum import Enum
 from typing import NamedTuple
 
 from gearcad.core.errors import ParameterError, SolverError, require_number
 from gearcad.core.records import JsonObject, PerGear, Role, is_assumed
 from gearcad.geometry import GearPair
+from gearcad.geometry.tooth_friction import ohlendorf_loss_factor
 from gearcad.load import Load
 from gearcad.planetary.members import PairStage, SetMesh, TrainLoad, base_radius
 from gearcad.planetary.train_data import Link, Speeds, TrainData, TrainShaft, shafts_of, speeds, willis_row
@@ -144,7 +145,8 @@ class PowerFlow:
     `efficiency` is that from input to output, `efficiency_back` that from output to input, 0 or below where no torque
     turns the train in that direction. Of a differential `efficiency` is all power that goes out over all that goes in, and
     `efficiency_back` None. `rolling_power` is what rolls through the meshes of the set as seen from the carrier, and
-    `rolling_ratio` the same over the power that goes into the set; None without load.
+    `rolling_ratio` the same over the power that goes into the set; None without load. `mesh_efficiencies` are those of the
+    meshes of the set by the friction of the load, none where the efficiency is given.
     """
 
     load: TrainLoad
@@ -158,6 +160,7 @@ class PowerFlow:
     efficiency_back: float | None
     rolling_power: float
     rolling_ratio: float | None
+    mesh_efficiencies: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def self_locking(self) -> bool:
@@ -178,6 +181,11 @@ class PowerFlow:
             return f"power circulates: {self.rolling_ratio:.4g} times what goes in rolls through the meshes"
         return f"no power circulates: {self.rolling_ratio:.4g} of what goes in rolls through the meshes"
 
+    @property
+    def source(self) -> str:
+        """Source of the efficiency of a mesh: "given", "assumed", or "friction", which is Ohlendorf's loss factor."""
+        return "friction" if self.mesh_efficiencies else "assumed" if is_assumed(self.load.mesh_efficiency) else "given"
+
     def to_dict(self) -> JsonObject:
         """Return the flow of power as a document for JSON."""
         return {
@@ -190,7 +198,8 @@ class PowerFlow:
             "efficiency": self.efficiency,
             "efficiency_back": self.efficiency_back,
             "mesh_efficiency": self.load.mesh_efficiency,
-            "mesh_efficiency_source": "assumed" if is_assumed(self.load.mesh_efficiency) else "given",
+            "mesh_efficiency_source": self.source,
+            **({"mesh_efficiencies": dict(self.mesh_efficiencies)} if self.mesh_efficiencies else {}),
             "self_locking": None if is_assumed(self.load.mesh_efficiency) else self.self_locking,
             "rolling_power": self.rolling_power,
             "rolling_ratio": self.rolling_ratio,
@@ -206,6 +215,9 @@ def power_flow(train: TrainData, load: TrainLoad, given_speeds: Mapping[str, flo
     differential shares torque as a set with a fixed member does; its speeds decide which way power goes.
     Raises ParameterError where speeds are missing or too many, SolverError where the train locks itself against the load.
     """
+    by_friction = efficiencies_by_friction(train, load)
+    if by_friction:
+        load = replace(load, mesh_efficiency=math.sqrt(math.prod(by_friction.values())))
     given = dict(given_speeds or {})
     actual = speeds(train, {train.input: load.speed, **given})
     signs = actual.members
@@ -229,7 +241,21 @@ def power_flow(train: TrainData, load: TrainLoad, given_speeds: Mapping[str, flo
         efficiency_back=None if train.fixed is None else efficiency(train, load.mesh_efficiency, back=True),
         rolling_power=abs(rolling_power(train, found.members, actual.members)) * _WATT,
         rolling_ratio=abs(rolling) / entering if entering else None,
+        mesh_efficiencies=by_friction,
     )
+
+
+def efficiencies_by_friction(train: TrainData, load: TrainLoad) -> dict[str, float]:
+    """Return 1 - mu H_V of both meshes of the set, by Ohlendorf's loss factors; none where the efficiency is given, or a mesh
+    has no such factor.
+
+    Of both in a row the efficiency is the product, so the square root of it stands for each, and for stages.
+    """
+    if load.friction is None or not is_assumed(load.mesh_efficiency):
+        return {}
+    factors = {mesh.name: ohlendorf_loss_factor(mesh.pair) for mesh in train.meshes}
+    found = {name: 1 - load.friction * factor for name, factor in factors.items() if factor is not None}
+    return found if len(found) == len(factors) else {}
 
 
 def lossless_flow(train: TrainData, load: TrainLoad, given_speeds: Mapping[str, float] | None = None) -> PowerFlow:

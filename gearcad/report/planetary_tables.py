@@ -167,7 +167,7 @@ def speed_table(train: PlanetaryTrain, speeds: Speeds, flow: PowerFlow | None, u
 def power_rows(train: PlanetaryTrain, flow: PowerFlow) -> list[ReportRow]:
     """Return rows of efficiencies, losses, and the power that flows through the meshes."""
     assumed = is_assumed(flow.load.mesh_efficiency)
-    source, losses = ("assumed", ": mesh_efficiency is not given, no losses are counted") if assumed else ("given", "")
+    source, losses = ("assumed", ": mesh_efficiency is not given, no losses are counted") if assumed else (flow.source, "")
     rows = [
         ReportRow(
             f"efficiency of a mesh, {source}", "η", (short(flow.load.mesh_efficiency),), "", f"with the carrier at rest{losses}"

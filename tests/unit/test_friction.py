@@ -17,8 +17,9 @@ from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.contact.solid.pair import SolidPair, SolidSizes, solid_pair
 from gearcad.core.errors import ParameterError
 from gearcad.core.records import PerGear, Role
+from gearcad.geometry.tooth_friction import MeshFriction, ohlendorf_loss_factor
 from gearcad.material import Material, MaterialGroup
-from gearcad.rating.friction import MeshFriction, mesh_efficiency, mesh_friction, ohlendorf_loss_factor
+from gearcad.rating.friction import mesh_efficiency, mesh_friction
 from gearcad.rating.options import RatingOptions
 
 STEEL = Material()

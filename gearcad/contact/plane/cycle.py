@@ -25,11 +25,11 @@ from gearcad.contact.shared.loaded import FAIR, INTERIOR, TOOTH_ORDER, LoadedCyc
 from gearcad.contact.shared.local_contact import HollowContact, conformal_notices, onsets, start_distance
 from gearcad.core.records import Floats, Notice, PerGear, Role, Wholes
 from gearcad.geometry import Gear, GearPair, Rack, RackPair
+from gearcad.geometry.tooth_friction import sliding_levers
 from gearcad.material import Materials, of_both
 from gearcad.meshing.fem import field_gradients, node_places, shape_values
 from gearcad.meshing.outline import OutlineSide
 from gearcad.rating.contact_stress import half_width_by_curvature
-from gearcad.rating.friction import sliding_levers
 
 _RESOLVED = 4
 """Cells over a transition with which its pressure is right within 0.25 %."""

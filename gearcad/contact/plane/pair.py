@@ -36,11 +36,11 @@ from gearcad.core.errors import GeometryError, SolverError
 from gearcad.core.records import Bools, Floats, Indices, PerGear, Role
 from gearcad.geometry import Gear, GearPair, RackPair
 from gearcad.geometry.gear import refuse_halves
+from gearcad.geometry.tooth_friction import MeshFriction
 from gearcad.material import Materials, of_both
 from gearcad.meshing.outline import MeshSizes
 from gearcad.meshing.sector import mesh_sector
 from gearcad.rating.contact_stress import half_width
-from gearcad.rating.friction import MeshFriction
 
 
 @dataclass(frozen=True)

@@ -21,11 +21,11 @@ from gearcad.contact.solid.line_contact import ContactLine, LineSolution, plain_
 from gearcad.contact.solid.pair import SolidPair
 from gearcad.contact.solid.root import FilletState, SolidFillet
 from gearcad.core.records import Bools, Floats, Notice, PerGear, Role, Wholes
+from gearcad.geometry.tooth_friction import sliding_levers
 from gearcad.material import Material
 from gearcad.meshing.bodies.element_mesh import vtk_elements
 from gearcad.meshing.fem import BY_LEVELS, SWEPT, Element, field_gradients, node_places, quadrature, shape_values
 from gearcad.meshing.files import write_vtu
-from gearcad.rating.friction import sliding_levers
 
 
 @dataclass(frozen=True)

@@ -26,13 +26,13 @@ from gearcad.core.runtime import Expected, Share, unheard
 from gearcad.geometry import Gear, GearPair
 from gearcad.geometry.curves import CurveKind
 from gearcad.geometry.gear import refuse_halves
+from gearcad.geometry.tooth_friction import MeshFriction
 from gearcad.material import Materials, of_both
 from gearcad.meshing.outline import MeshSizes
 from gearcad.meshing.quads import mesh_quads
 from gearcad.meshing.sector import SweptMesh, sweep
 from gearcad.mounting import MOST_DEVIATION, Mounting, SupportCompliance
 from gearcad.rating.contact_stress import reduced_modulus
-from gearcad.rating.friction import MeshFriction
 
 POSITION_SECONDS = 0.025
 """Time (s) for one position of a mesh cycle."""

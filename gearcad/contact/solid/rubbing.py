@@ -21,7 +21,7 @@ from gearcad.contact.solid.line_contact import ContactLine, LineSolution, Respon
 from gearcad.core.errors import SolverError
 from gearcad.core.records import Floats, PerGear, Role
 from gearcad.geometry import GearPair
-from gearcad.rating.friction import MeshFriction
+from gearcad.geometry.tooth_friction import MeshFriction
 
 _ROUNDS, _SETTLED = 40, 1e-8
 """Rounds of finding friction from forces, and the change of a force, over the greatest, at which they have settled."""
