@@ -184,6 +184,7 @@ def _set(content: Any, number: int, where: Where) -> MemberSet:
     for place, each in enumerate(listed):
         own = f"{key}.planet[{place}]"
         _require_keys(each, own, None if geared else _OF_PLANET, where)
+        _require_texts(each, own, where)
         given = {"name": "planet", "teeth": None} | {part: each[part] for part in _OF_PLANET if part in each}
         planets.append(_made(SetPlanet, own, where, **given))
         tables[planets[-1].name] = GearTable(own, each)
@@ -193,6 +194,7 @@ def _set(content: Any, number: int, where: Where) -> MemberSet:
             continue
         own = f"{key}.{central}"
         _require_keys(each, own, None if geared else _OF_CENTRAL, where)
+        _require_texts(each, own, where)
         mate = each.get("meshes", planets[0].name if len(planets) == 1 else None)
         if mate is None:
             raise SpecError(f"{where(own)}: {own}.meshes is missing: the planet that it meshes with", f"{own}.meshes")
@@ -203,6 +205,7 @@ def _set(content: Any, number: int, where: Where) -> MemberSet:
         _require_keys(carrier, f"{key}.carrier", _OF_CARRIER if geared else ("name",), where)
         of_carrier = {field: value for field, value in carrier.items() if field != "name"}
         carrier = carrier.get("name", "carrier")
+    _require_texts({"carrier": carrier}, key, where)
     found = _made(MemberSet, key, where, name=name, centrals=tuple(centrals), planets=tuple(planets), carrier=carrier)
     if geared:
         found = SetReader(found, key, shared, tables, of_carrier, where).geared()
@@ -358,6 +361,14 @@ def _text(table: Mapping[str, Any], owner: str, key: str, where: Where) -> str:
     if not isinstance(value, str) or not value:
         raise SpecError(f"{where(owner)}: {full} is missing: a name", full)
     return value
+
+
+def _require_texts(table: Mapping[str, Any], key: str, where: Where) -> None:
+    """Raise SpecError for a name in a table that is no text."""
+    for name in ("name", "meshes", "beside", "carrier"):
+        if not isinstance(table.get(name, ""), str):
+            full = f"{key}.{name}"
+            raise SpecError(f"{where(full)}: {full} = {format_number(table[name])}: must be a name, in quotation marks", full)
 
 
 def _require_keys(table: Any, key: str, permitted: tuple[str, ...] | None, where: Where) -> None:

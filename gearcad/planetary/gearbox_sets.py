@@ -166,6 +166,13 @@ class MemberSet:
                 if mate and (mate not in names or mate == part.name):
                     others = ", ".join(name for name in names if name != part.name) or "none"
                     raise ParameterError(f"{self.name}.{part.name}.{key}", mate, f"must be another planet of the set: {others}")
+        beside = {each.name: each.beside for each in self.planets}
+        for name in names:
+            passed = [name]
+            while beside[passed[-1]]:
+                passed.append(beside[passed[-1]])
+                if passed.count(passed[-1]) > 1:
+                    raise ParameterError(f"{self.name}.{name}.beside", beside[name], "must not lead back to itself")
         if self.gearing is not None:
             self._check_gearing(self.gearing)
 

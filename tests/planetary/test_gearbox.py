@@ -253,6 +253,12 @@ def test_random_states_by_exact_elimination_virtual_work_and_the_balance_of_loss
         assert 1 - found.efficiency == pytest.approx(lost, abs=1e-9 * max(1.0, sizes)), seed
 
 
+def test_planets_beside_each_other_lead_to_one_body() -> None:
+    planets = SetPlanet(name="a", teeth=20, beside="b"), SetPlanet(name="b", teeth=21, beside="a")
+    with pytest.raises(ParameterError, match=r"s\.a\.beside = 'b': must not lead back to itself"):
+        MemberSet(name="s", centrals=(SetCentral(name="sun", teeth=24, meshes="a"),), planets=planets)
+
+
 def test_states_that_cannot_be() -> None:
     each = [simple("s", 24, 66)]
     with pytest.raises(GeometryError, match=r"states\.it = 'nothing held or joined': must leave one speed free, and leaves 2"):
@@ -289,6 +295,12 @@ def test_a_gearbox_that_locks_itself() -> None:
             r"planetary\.set\[2\]\.ring\.tooth: unknown key; permitted are teeth, meshes",
         ),
         ("planet = [{ teeth = 31 }]", "planet = []", r"meshes is missing: the planet that it meshes with"),
+        (
+            'name = "p1", ',
+            'name = "p1", carrier = 3, ',
+            r"planetary\.set\[0\]\.carrier = 3: must be a name, in quotation marks",
+        ),
+        ("ring.teeth = -111", "ring.teeth = -111, ring.meshes = [1]", r"set\[2\]\.ring\.meshes = \[1\]: must be a name"),
         ('held = ["p1.sun"]', 'held = "p1.sun"', r"must be names in brackets"),
         ("mesh_efficiency = 0.99", "mesh_efficiency = 1.2", r"planetary\.mesh_efficiency = 1\.2: must be .*at most 1"),
         ('output = "p4.carrier"', 'output = "p5.carrier"', r"planetary\.output = 'p5\.carrier': must be a shaft without a dot"),
