@@ -13,7 +13,7 @@ import sys
 import threading
 from collections.abc import Callable
 from contextlib import suppress
-from typing import IO
+from typing import IO, Any
 
 from gearcad.core.errors import format_number
 from gearcad.core.guard import death, die_with
@@ -68,6 +68,15 @@ def end_with_input(read: Callable[[], object], status: int) -> None:
         os._exit(status)
 
     threading.Thread(target=reading, daemon=True).start()
+
+
+def limit_cpu_time(child: subprocess.Popen[Any], seconds: int) -> None:
+    """Let the system end a child by SIGXCPU after so many seconds of CPU time; only Linux can."""
+    if sys.platform == "linux":
+        import resource
+
+        with suppress(ProcessLookupError):
+            resource.prlimit(child.pid, resource.RLIMIT_CPU, (seconds, seconds + 1))
 
 
 def ending_words(status: int) -> str:

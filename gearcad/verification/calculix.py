@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import math
 import os
 import re
 import shutil
+import signal
 import subprocess
+import sys
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
+from gearcad.core.child_process import limit_cpu_time
 from gearcad.core.errors import GearcadError
 from gearcad.core.records import Role
 from gearcad.decks.pair import PairDecks
@@ -22,7 +26,13 @@ _PROGRAM = "ccx"
 _JOB = "pair"
 
 TIME_LIMIT = 900.0
-"""Seconds that one deck may take."""
+"""Seconds of CPU time that one deck may take: other work on the machine does not count."""
+
+_PATIENCE = 20
+"""Seconds that may pass for each second of CPU time."""
+
+_OUT_OF_TIME = -signal.SIGXCPU if sys.platform == "linux" else None
+"""Exit status of a program that has used its CPU time."""
 
 _WHAT = "transmission error, load share, root stress, pressure"
 
@@ -89,23 +99,30 @@ def judge_calculix(
 def _run(job: Path, time_limit: float) -> str:
     """Run CalculiX on a deck by one thread, and return the reason why it has no result, or ""."""
     threads = {**os.environ, "OMP_NUM_THREADS": "1"}
+    late = f"CalculiX did not come to an end in {time_limit:g} s of CPU time"
     try:
-        run = subprocess.run(
+        with subprocess.Popen(
             [_PROGRAM, job.name],
             cwd=job.parent,
-            capture_output=True,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
             encoding="utf-8",
             errors="replace",
-            timeout=time_limit,
             env=threads,
-            check=False,
-        )
-    except subprocess.TimeoutExpired:
-        return f"CalculiX did not come to an end in {time_limit:g} s"
+        ) as run:
+            limit_cpu_time(run, math.ceil(time_limit))
+            try:
+                printed, _ = run.communicate(timeout=_PATIENCE * time_limit)
+            except subprocess.TimeoutExpired:
+                return late
+            finally:
+                run.kill()
     except OSError as error:
         return f"CalculiX cannot be run: {error}"
-    if run.returncode or "ERROR" in run.stdout:
-        said = next((line.strip() for line in run.stdout.splitlines() if "ERROR" in line), f"exit status {run.returncode}")
+    if run.returncode == _OUT_OF_TIME:
+        return late
+    if run.returncode or "ERROR" in printed:
+        said = next((line.strip() for line in printed.splitlines() if "ERROR" in line), f"exit status {run.returncode}")
         return f"CalculiX has no result: {said}"
     return ""
 

@@ -22,8 +22,18 @@ FILE = Path(__file__).parents[1] / "data" / "tip_edges.json"
 
 DATA: dict[str, Any] = json.loads(FILE.read_text(encoding="utf-8"))
 
-ERROR, SHARE, ROOT = 0.4, 0.45, 0.8
-"""In %: transmission error, load share (of the load), root stress; tilts are of first order. 1.7 and 2.9 % were without."""
+REFINEMENT = 4.0
+"""Of our mesh: at 2 the share is up to 0.11 % of the load off, as the corner of the tip is not resolved, at 1 up to 0.25 %."""
+
+ERROR, SHARE, ROOT = 0.17, 0.08, 0.27
+"""In %: transmission error, load share (of the load), root stress. Without levers 1.7 and 2.9 % were the worst, with one lever
+of the unloaded flanks, and a refinement of 2, 0.14, 0.17 and 0.62 %.
+"""
+
+TWICE, UNEVEN = 5.625, (0.4, 0.45, 0.8)
+"""Roll angle (deg) where CalculiX took a second increment: its normals are then those of the dented flank, and the normal
+forces add up to 0.2 % too much. With edges of a quarter it took one; 0.04, 0.01 and 0.08 % are left.
+"""
 
 SOLID_ERROR, SOLID_ROOT = 1.2, 3.0
 """In %, of decks with two layers of coarse elements."""
@@ -57,7 +67,7 @@ def pair_name(request: pytest.FixtureRequest) -> str:
 
 @pytest.fixture(scope="module")
 def decks(pair_name: str) -> PlaneDecks:
-    return plane_decks(pair_name, 2.0)
+    return plane_decks(pair_name, REFINEMENT)
 
 
 def test_loads_on_tip_edges_are_those_of_calculix(pair_name: str, decks: PlaneDecks) -> None:
@@ -66,10 +76,12 @@ def test_loads_on_tip_edges_are_those_of_calculix(pair_name: str, decks: PlaneDe
         found = decks.cycle.solve(row["roll_angle"])
         tip = Role(row["tip"])
         (edge,) = [contact for contact in found.contacts if contact.arms.pick(tip) != 1]
-        assert found.transmission_error == pytest.approx(row["transmission_error"], rel=ERROR / 100)
-        assert edge.share == pytest.approx(row["edge_share"], abs=SHARE / 100)
+        error, share, root = UNEVEN if row["roll_angle"] == TWICE else (ERROR, SHARE, ROOT)
+        assert edge.arms.pick(Role.WHEEL if tip is Role.PINION else Role.PINION) == 1
+        assert found.transmission_error == pytest.approx(row["transmission_error"], rel=error / 100)
+        assert edge.share == pytest.approx(row["edge_share"], abs=share / 100)
         for role in Role:
-            assert found.tension.pick(role).stress == pytest.approx(row["root_stress"][role.value], rel=ROOT / 100)
+            assert found.tension.pick(role).stress == pytest.approx(row["root_stress"][role.value], rel=root / 100)
 
 
 @pytest.mark.long

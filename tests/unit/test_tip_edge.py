@@ -30,8 +30,11 @@ STEP = 1e-5
 DRAWN = 1e-6
 """Error of levers (over the base radius) and angles (rad) by these differences."""
 
-ENERGY = 0.1
-"""Of what the ratio of torques has beyond 1: 8.4 and 3 % were measured, as a lever is that of the edge for all of a contact."""
+ENERGY = 0.04
+"""Of what the ratio of torques has beyond 1: up to 3.6 % were measured, which flanks in the middle of the path have as well.
+
+With levers of the unloaded flanks it is up to 10 %, with those of the turned ones without deflection 14 %.
+"""
 
 Curve = Callable[[float], np.ndarray]
 
@@ -129,7 +132,7 @@ def test_a_root_relief_turns_the_force_of_its_mates_tip() -> None:
     assert relieved - plain == pytest.approx(slope, rel=0.02)
 
 
-@pytest.mark.parametrize("angle", [-5.3, 5.3], ids=["pinion's tip, late", "wheel's tip, early"])
+@pytest.mark.parametrize("angle", [-5.7, -5.3, 5.3, 5.7], ids=["pinion", "pinion, late", "wheel, early", "wheel"])
 def test_work_of_both_torques_is_the_elastic_energy(angle: float) -> None:
     """Over the path ds of the mesh the pinion does the work F (ds + d delta), the wheel takes F kappa ds, the rest is stored.
 

@@ -73,13 +73,25 @@ class PlanePairContact(PairContact):
 
     @property
     def arms(self) -> PerGear[float]:
-        """Lever arms of the force on both gears, over their base radii."""
-        return self.pair.arms
+        """Lever arms of the force on both gears, over their base radii: the mean of the cells by their pressures."""
+        if self.pair.edges is None:
+            return PerGear(1.0, 1.0)
+        # What they have beyond 1 is averaged: a gear on whose flank the force is normal has an arm of 1 to the last digit.
+        return self._mean(self.pair.edges.arms.map(lambda arms: arms - 1)).map(lambda beyond: 1 + beyond)
+
+    @property
+    def tilts(self) -> PerGear[float]:
+        """Angles (rad) from the normal of each gear's flank to the force on it."""
+        return PerGear(0.0, 0.0) if self.pair.edges is None else self._mean(self.pair.edges.tilts)
+
+    def _mean(self, values: PerGear[Floats]) -> PerGear[float]:
+        return values.map(lambda of: float(of @ self.pressures / self.pressures.sum()))
 
     @property
     def lever_arms(self) -> PerGear[float]:
         """Lever arms of the force and its friction together, over the base radii."""
-        return self.pair.lever_arms
+        levers = zip(self.arms, self.pair.friction_levers, strict=True)
+        return PerGear(*(arm + self.pair.friction * lever for arm, lever in levers))
 
     @property
     def peak_pressure(self) -> float:
@@ -181,8 +193,8 @@ def tooth_loads(contacts: tuple[PlanePairContact, ...], role: Role) -> list[Toot
             sense * contact.tooth,
             contact.centre(role),
             contact.force,
-            contact.pair.arms.pick(role),
-            contact.pair.tilts.pick(role),
+            contact.arms.pick(role),
+            contact.tilts.pick(role),
             contact.pair.friction,
         )
         for contact in contacts
@@ -198,7 +210,7 @@ def root_loads(contacts: tuple[PlanePairContact, ...], role: Role) -> list[list[
 def _hub_torque(model: PlanePair, contacts: tuple[PlanePairContact, ...], role: Role) -> float:
     """Return the torque (N·m) that the loads put on a gear's hub."""
     body = model.bodies.pick(role)
-    each = (body.hub_torque(of.centre(role)) * (of.force * of.pair.arms.pick(role)) for of in contacts)
+    each = (body.hub_torque(of.centre(role)) * (of.force * of.arms.pick(role)) for of in contacts)
     rubbed = sum(
         model.fillets.pick(role).friction_torque(of.centre(role)) * (of.force * of.pair.friction)
         for of in contacts

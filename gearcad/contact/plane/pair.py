@@ -6,7 +6,7 @@ Everything is per mm of face width, in the transverse section.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from itertools import pairwise, product
@@ -19,6 +19,7 @@ from gearcad.contact.plane.ring import Ring, assemble
 from gearcad.contact.plane.sector import Plane, PlaneElasticity
 from gearcad.contact.shared.bodies import BodyModel, Support
 from gearcad.contact.shared.line_of_action import (
+    AS_PLACED,
     LineOfAction,
     RackLine,
     facing_gap,
@@ -27,10 +28,11 @@ from gearcad.contact.shared.line_of_action import (
     overlap,
     pairs_within,
     rigid_approach,
+    tip_places,
 )
 from gearcad.contact.shared.loaded import TOOTH_ORDER, FlexiblePair
 from gearcad.contact.shared.local_contact import onsets, start_distance
-from gearcad.contact.shared.tip_edge import tip_edges
+from gearcad.contact.shared.tip_edge import LoadedTip, TipEdges
 from gearcad.core.complementarity import complementary
 from gearcad.core.errors import GeometryError, SolverError
 from gearcad.core.records import Bools, Floats, Indices, PerGear, Role
@@ -56,15 +58,15 @@ class ContactCells:
     gap: Floats
 
 
-_NORMAL_ARMS, _NO_TILTS, _NO_LEVERS = PerGear(1.0, 1.0), PerGear(0.0, 0.0), PerGear(0.0, 0.0)
+_NO_LEVERS = PerGear(0.0, 0.0)
 
 
 @dataclass(frozen=True)
 class ContactPair:
     """A pair of flanks: tooth `tooth` of the pinion (0 is the middle one), in contact at roll `lengths` (mm).
 
-    `added_curvature` (1/mm) is what modified flanks have more than the two involutes, where they come nearest. `arms` (over
-    the base radii) and `tilts` (rad) are those of `TipEdges`. `flat`: the wheel is a rack, whose flanks are straight.
+    `added_curvature` (1/mm) is what modified flanks have more than the two involutes, where they come nearest. `edges` are the
+    forces of the cells where the edge of a tip ends the contact. `flat`: the wheel is a rack, whose flanks are straight.
     `friction` is the force along the flanks towards their tips over the normal force, `friction_levers` its lever arms, over
     the base radii.
     """
@@ -73,15 +75,19 @@ class ContactPair:
     lengths: PerGear[float]
     cells: ContactCells
     added_curvature: float = 0.0
-    arms: PerGear[float] = _NORMAL_ARMS
-    tilts: PerGear[float] = _NO_TILTS
+    edges: TipEdges | None = None
     flat: bool = False
     friction: float = 0.0
     friction_levers: PerGear[float] = _NO_LEVERS
 
     @property
-    def lever_arms(self) -> PerGear[float]:
-        """Lever arms of the normal force and its friction together, over the base radii."""
+    def arms(self) -> PerGear[Floats]:
+        """Lever arms (n,) of the normal forces on the cells, over the base radii."""
+        return (self.edges or TipEdges.none(len(self.cells.place))).arms
+
+    @property
+    def lever_arms(self) -> PerGear[Floats]:
+        """Lever arms (n,) of the normal forces and their friction together, over the base radii."""
         levers = zip(self.arms, self.friction_levers, strict=True)
         return PerGear(*(arm + self.friction * lever for arm, lever in levers))
 
@@ -128,12 +134,12 @@ def solve_contact(
     """
     sizes = [len(pair.cells.place) for pair in pairs]
     width = np.concatenate([np.full(size, pair.cells.width) for size, pair in zip(sizes, pairs, strict=True)])
-    arms = np.concatenate([np.full(size, pair.arms.pinion) for size, pair in zip(sizes, pairs, strict=True)])
+    arms = np.concatenate([pair.arms.pinion for pair in pairs])
     gap = np.concatenate([pair.cells.gap for pair in pairs])
     matrices = PerGear.each(lambda role: compliance_matrix(pairs, bodies.pick(role), role))
     touching = _middles(pairs) if like is None else _touching(pairs, like)
     if any(pair.friction for pair in pairs):
-        levers = np.concatenate([np.full(size, pair.lever_arms.pinion) for size, pair in zip(sizes, pairs, strict=True)])
+        levers = np.concatenate([pair.lever_arms.pinion for pair in pairs])
         rubbed = PerGear.each(lambda role: _rubbed_matrix(pairs, bodies.pick(role), role))
         pressed = _with_friction(matrices, rubbed, (gap * width, width * arms, width * levers), force, touching)
     else:
@@ -199,14 +205,12 @@ def compliance_matrix(pairs: tuple[ContactPair, ...], body: PlaneCompliance, rol
         if body.edge_taken_off and not apart:
             matrix[there, here] += _edge_block(one.cells, body)
     result: Floats = (matrix + matrix.T) / 2
-    if any(pair.tilts.pick(role) for pair in pairs):
-        result += _tilted_matrix(pairs, body, role, spans, parts)
+    if any(pair.edges for pair in pairs):
+        result += _tilted_matrix(pairs, body, role, spans)
     return result
 
 
-def _tilted_matrix(
-    pairs: tuple[ContactPair, ...], body: PlaneCompliance, role: Role, spans: list[slice], parts: Floats
-) -> Floats:
+def _tilted_matrix(pairs: tuple[ContactPair, ...], body: PlaneCompliance, role: Role, spans: list[slice]) -> Floats:
     """Return what is added to the compliance (n, n) in mm²/MPa where forces are not normal to the flank.
 
     A force that is tilted by a small angle t moves the flank's point in its own direction by u_n - t u_s, with u_s towards the
@@ -214,14 +218,9 @@ def _tilted_matrix(
     """
     matrix = np.zeros((spans[-1].stop, spans[-1].stop))
     for one, there in zip(pairs, spans, strict=True):
-        if not (tilt := one.tilts.pick(role)):
-            continue
-        slid = body.along_by_unit_loads(one.cells.lengths.pick(role))
-        for other, here in zip(pairs, spans, strict=True):
-            apart = (one.tooth - other.tooth) * TOOTH_ORDER.pick(role)
-            if abs(apart) <= body.neighbours:
-                block = slid[:, apart + body.neighbours] @ parts[here].T
-                matrix[there, here] -= tilt * block * (one.cells.width * other.cells.width)
+        if one.edges is not None:
+            slid = np.hstack([each * (one.cells.width * other.cells.width) for other, each in _slid(pairs, one, body, role)])
+            matrix[there] = -one.edges.tilts.pick(role)[:, None] * slid
     result: Floats = matrix + matrix.T
     return result
 
@@ -252,6 +251,26 @@ def _rubbed_matrix(pairs: tuple[ContactPair, ...], body: PlaneCompliance, role: 
     return matrix
 
 
+def _slid(
+    pairs: tuple[ContactPair, ...], one: ContactPair, body: PlaneCompliance, role: Role
+) -> Iterator[tuple[ContactPair, Floats]]:
+    """Yield each pair and the displacements (n, m) towards the tip of the cells of `one` by 1 N per mm on the cells of that."""
+    along = body.along_by_unit_loads(one.cells.lengths.pick(role))
+    for other in pairs:
+        apart = (one.tooth - other.tooth) * TOOTH_ORDER.pick(role)
+        known = abs(apart) <= body.neighbours
+        parts = body.parts_of_loads(other.cells.lengths.pick(role)).T
+        yield other, along[:, apart + body.neighbours] @ parts if known else np.zeros((len(along), parts.shape[1]))
+
+
+def slid(solution: ContactSolution, pair: ContactPair, body: PlaneCompliance, role: Role) -> float:
+    """Return how far (mm) the loads slide a gear's flank towards its tip where a pair presses."""
+    carried = dict(zip((each.tooth for each in solution.pairs), solution.pressures, strict=True))
+    own = carried[pair.tooth] / carried[pair.tooth].sum()
+    along = _slid(solution.pairs, pair, body, role)
+    return float(sum(own @ each @ carried[other.tooth] * other.cells.width for other, each in along))
+
+
 def _edge_block(cells: ContactCells, body: PlaneCompliance) -> Floats:
     """Return the straight edge's part: k(d) integrated over both cells in closed form."""
     log = -2 / (np.pi * body.elasticity.modulus)
@@ -280,6 +299,9 @@ def _second(x: Floats) -> Floats:
 _FRICTION_ROUNDS, _FRICTION_SETTLED = 60, 1e-10
 """Rounds of finding friction from pressures, and the change of a pressure, over the greatest, at which they have settled."""
 
+_SAME = 1e-9
+"""Distance (mm) below which two places are one."""
+
 _FEWEST = 6
 """Cells of a pair of flanks, however narrow its window."""
 
@@ -299,15 +321,18 @@ def contact_pairs(
     least_width: float = 0.0,
     *,
     single: bool = False,
+    tips: Mapping[int, LoadedTip] | None = None,
 ) -> tuple[ContactPair, ...]:
     """Return the pairs of flanks when the middle pair touches at `pinion_length` (mm from T1).
 
     Each has `cells` within `span(tooth, reduced radius)` (mm) on both sides of its contact, or fewer that are not narrower
     than `least_width` (mm). Beyond the path of contact the corner of a tip can touch while teeth bend: such pairs count up
-    to `farthest_gap` (mm) from where exact involutes would touch. `single` leaves all but the middle pair out.
+    to `farthest_gap` (mm) from where exact involutes would touch. `single` leaves all but the middle pair out. `tips` are the
+    edges of tips that are known to press, by tooth.
     """
+    known = tips or {}
     return tuple(
-        _contact_pair(line, tooth, pinion_length + tooth * line.pitch, place, span, cells, least_width)
+        _contact_pair(line, tooth, pinion_length + tooth * line.pitch, place, span, cells, least_width, known.get(tooth))
         for tooth, place in touching_teeth(line, pinion_length, farthest_gap, single=single).items()
     )
 
@@ -326,8 +351,11 @@ def _contact_pair(
     span: Callable[[int, float], float],
     cells: int,
     least_width: float,
+    tip: LoadedTip | None = None,
 ) -> ContactPair:
-    low, high = overlap(line, pinion_length)
+    turns = tip.turns if tip else AS_PLACED
+    low, high = overlap(line, pinion_length, turns)
+    middle = min(max(middle, low), high)
     touching = line.lengths(pinion_length)
     radius = line.radius(pinion_length)
     reach = span(tooth, radius)
@@ -336,17 +364,17 @@ def _contact_pair(
     count = max(round((last - first) / finest), _FEWEST)
     width = (last - first) / count
     place = np.linspace(first + width / 2, last - width / 2, count)
-    facing, gap = facing_gap(line, tooth, pinion_length, place)
+    facing, gap = facing_gap(line, tooth, pinion_length, place, turns)
     # The mean gap over a cell is that of its middle and what the curvature adds.
     gap = gap + width**2 / 24 / radius
     added = 0.0 if line.exact else _curvature(line, tooth, pinion_length, middle) - 1 / radius
-    formed = ContactCells(place, width, facing, gap)
     flat = isinstance(line, RackLine)
-    if low <= 0 <= high:
-        return ContactPair(tooth, touching, formed, added, flat=flat)
-    edges = tip_edges(line, touching.map(lambda length: np.array([length])))
-    arms, tilts = (each.map(lambda of: float(of[0])) for each in edges)
-    return ContactPair(tooth, touching, formed, added, arms, tilts, flat)
+    if tip is None and not low <= 0 <= high:  # beyond the path of contact
+        tip = next((LoadedTip(role) for role, at in tip_places(line, pinion_length).items() if at in (low, high)), None)
+    if tip is None:
+        return ContactPair(tooth, touching, ContactCells(place, width, facing, gap), added, flat=flat)
+    edges = tip.forces(line, pinion_length, place)
+    return ContactPair(tooth, touching, ContactCells(place, width, facing, gap + tip.gap(edges)), added, edges, flat)
 
 
 def _of_transition(line: LineOfAction, touching: PerGear[float], radius: float, reach: float) -> float:
@@ -445,7 +473,29 @@ class PlanePair(FlexiblePair[PlaneCompliance]):
         def thought(tooth: int) -> float:
             return float(max(shares.get(tooth, 0.0), _LEAST_SHARE * force))
 
-        return self._pressed(roll_angle, force, thought, single, _CELLS, carried)
+        return self._pressed(roll_angle, force, thought, single, _CELLS, carried, self._loaded_tips(roll_angle, carried))
+
+    def _loaded_tips(self, roll_angle: float, solution: ContactSolution) -> dict[int, LoadedTip]:
+        """Return the edges of tips that press in a solution at a roll angle (deg), by tooth: the cells beside them carry."""
+        found = dict[int, LoadedTip]()
+        for pair, pressures in zip(solution.pairs, solution.pressures, strict=True):
+            length, aside = self.roll_length(roll_angle) + pair.tooth * self.line.pitch, pair.cells.width / 2
+            ends = PerGear((pair.cells.place[-1] + aside, pressures[-1]), (pair.cells.place[0] - aside, pressures[0]))
+            tips = tip_places(self.line, length)
+            reached = [role for role, (end, there) in ends.items() if there > 0 and abs(end - tips.pick(role)) < _SAME]
+            if reached:
+                role = min(reached, key=lambda each: abs(tips.pick(each)))
+                found[pair.tooth] = self._loaded_tip(role, self.line.lengths(length), solution, pair)
+        return found
+
+    def _loaded_tip(self, role: Role, touching: PerGear[float], solution: ContactSolution, pair: ContactPair) -> LoadedTip:
+        """Return the edge of a gear's tip on a pair of flanks that touch at roll lengths (mm), as a solution moves them."""
+        flanks = self.line.flanks
+        by_load = PerGear.each(
+            lambda each: flanks.pick(each).turn_of(slid(solution, pair, self.bodies.pick(each), each), touching.pick(each))
+        )
+        turns = PerGear(solution.approach - by_load.pinion, by_load.wheel)
+        return LoadedTip(role, turns, flanks.pick(role).turned(by_load.pick(role)))
 
     def _pressed(
         self,
@@ -455,9 +505,10 @@ class PlanePair(FlexiblePair[PlaneCompliance]):
         single: bool,
         cells: int,
         like: ContactSolution | None = None,
+        tips: Mapping[int, LoadedTip] | None = None,
     ) -> ContactSolution:
         """Return the contact, with windows for what each pair of teeth is thought to carry (N per mm); about `like` another
-        one.
+        one, which has told the `tips` that press.
         """
 
         def span(tooth: int, radius: float) -> float:
@@ -465,7 +516,8 @@ class PlanePair(FlexiblePair[PlaneCompliance]):
 
         least_width = max(body.resolution for body in self.bodies)
         farthest = self._farthest(roll_angle, force, single)
-        pairs = contact_pairs(self.line, self.roll_length(roll_angle), span, cells, farthest, least_width, single=single)
+        length = self.roll_length(roll_angle)
+        pairs = contact_pairs(self.line, length, span, cells, farthest, least_width, single=single, tips=tips)
         if not pairs:
             raise GeometryError("roll_angle", roll_angle, "must be an angle at which teeth can touch", "deg")
         if self.friction is not None:

@@ -58,6 +58,10 @@ _SAMPLES = 1201
 """Places on a pair of flanks among which the nearest is sought: 5 µm apart on teeth of module 2, 0.001 µm of the gap."""
 
 
+AS_PLACED = PerGear(0.0, 0.0)
+"""Turns of gears that stand where the unloaded ones do."""
+
+
 @dataclass(frozen=True)
 class TransverseFlank:
     """A flank in the transverse section at the height `height` (mm) of its gear; places on it are roll lengths (mm)."""
@@ -128,10 +132,13 @@ class TransverseFlank:
         length = contact + base * turn
         return length, contact - (length * np.cos(turn) - base * np.sin(turn))
 
-    def turned(self, away: Floats) -> Floats:
-        """Return the angles (rad) by which the flank's normals turn over distances (mm) of roll."""
-        result: Floats = away / self.base_radius
-        return result
+    def turned(self, away: Any) -> Any:
+        """Return the angle (rad) by which the flank's normals turn over a distance (mm) of roll, a scalar or an array."""
+        return away / self.base_radius
+
+    def turn_of(self, slid: float, contact: float) -> float:
+        """Return the turn (mm along the line of action) that slides a flank so far (mm) towards its tip where it touches."""
+        return slid * self.base_radius / contact
 
     def arms(self, place: Floats, along: Floats, slope: Floats) -> Floats:
         """Return the lever arms, over the base radius, of forces tilted by `slope` (rad).
@@ -171,8 +178,11 @@ class StraightFlank(TransverseFlank):
     def facing(self, contact: float | Floats, place: Floats) -> tuple[Floats, Floats]:
         return contact + place / self.slope, np.zeros_like(place)
 
-    def turned(self, away: Floats) -> Floats:
-        return np.zeros_like(away)
+    def turned(self, away: Any) -> Any:
+        return 0.0 * away
+
+    def turn_of(self, slid: float, contact: float) -> float:
+        return slid / self.slope
 
     def arms(self, place: Floats, along: Floats, slope: Floats) -> Floats:
         # The part of the force along the pitch line, over that of a normal force.
@@ -199,9 +209,12 @@ class LineOfAction:
         """True if all flanks are exact involutes in their places."""
         return not (self.proud or any(flank.form.modification.present for flank in self.flanks))
 
-    def lengths(self, pinion_length: float) -> PerGear[float]:
-        """Return the roll lengths of both flanks (mm) that touch at `pinion_length` (mm from T1)."""
-        return PerGear(pinion_length, self.whole - pinion_length)
+    def lengths(self, pinion_length: float, turns: PerGear[float] = AS_PLACED) -> PerGear[float]:
+        """Return the roll lengths of both flanks (mm) on the line of action, which touch at `pinion_length` (mm from T1).
+
+        By `turns` (mm along the line of action) both gears have turned on, each by itself.
+        """
+        return PerGear(pinion_length + turns.pinion, self.whole - pinion_length - turns.wheel)
 
     def radius(self, length: float) -> float:
         """Return the reduced radius of curvature (mm) of both involutes where they touch at a roll length (mm) of either."""
@@ -304,18 +317,25 @@ def facing_pairs(line: LineOfAction, pinion_length: float) -> dict[int, tuple[fl
     return {tooth: near for tooth, near in found if near is not None}
 
 
-def overlap(line: LineOfAction, pinion_length: float) -> tuple[float, float]:
+def overlap(line: LineOfAction, pinion_length: float, turns: PerGear[float] = AS_PLACED) -> tuple[float, float]:
     """Return the range along the tangent (mm) in which two flanks face each other. The range is empty if its first end is not
     below the second.
     """
-    _, wheel_length = line.lengths(pinion_length)
+    touching, tips = line.lengths(pinion_length, turns), tip_places(line, pinion_length, turns)
     one, other = line.flanks
-    if not line.curved(pinion_length):
+    if not line.curved(touching.pinion):
         return 0.0, 0.0
     return (
-        max(one.along_tangent(pinion_length, one.first), -other.along_tangent(wheel_length, other.last)),
-        min(one.along_tangent(pinion_length, one.last), -other.along_tangent(wheel_length, other.first)),
+        max(one.along_tangent(touching.pinion, one.first), tips.wheel),
+        min(tips.pinion, -other.along_tangent(touching.wheel, other.first)),
     )
+
+
+def tip_places(line: LineOfAction, pinion_length: float, turns: PerGear[float] = AS_PLACED) -> PerGear[float]:
+    """Return the places of both gears' tips along the tangent (mm), towards the pinion's."""
+    touching, (one, other) = line.lengths(pinion_length, turns), line.flanks
+    pinion, wheel = one.along_tangent(touching.pinion, one.last), other.along_tangent(touching.wheel, other.last)
+    return PerGear(float(pinion), -float(wheel))
 
 
 def nearest(line: LineOfAction, tooth: int, pinion_length: float) -> tuple[float, float] | None:
@@ -340,11 +360,13 @@ def nearest(line: LineOfAction, tooth: int, pinion_length: float) -> tuple[float
     )
 
 
-def facing_gap(line: LineOfAction, tooth: int, pinion_length: float, place: Floats) -> tuple[PerGear[Floats], Floats]:
+def facing_gap(
+    line: LineOfAction, tooth: int, pinion_length: float, place: Floats, turns: PerGear[float] = AS_PLACED
+) -> tuple[PerGear[Floats], Floats]:
     """Return the roll lengths (n,) of both flanks that face each other at places along the tangent, and the gap between them
-    (mm).
+    (mm), less the `turns` of both gears.
     """
-    touching = line.lengths(pinion_length)
+    touching = line.lengths(pinion_length, turns)
     (lengths, behind), (wheel_lengths, wheel_behind) = (
         flank.facing(length, sense * place) for flank, length, sense in zip(line.flanks, touching, (1, -1), strict=True)
     )

@@ -639,7 +639,7 @@ class LoadedCycle(ABC, Generic[M, Position, C]):
 
     def tip_positions(self, role: Role) -> int:
         """Return the number of even positions at which the edge of a gear's tip touches beyond the path of contact."""
-        return sum(any(contact.arms.pick(role) != 1 for contact in position.contacts) for position in self.positions)
+        return sum(any(each.edge and each.arms.pick(role) != 1 for each in position.contacts) for position in self.positions)
 
     def worst_position(self, role: Role) -> Position:
         """Return the position of the greatest root tension of a gear."""

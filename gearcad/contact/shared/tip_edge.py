@@ -7,6 +7,9 @@ everywhere; on the gear whose tip it is the arm is another, and the force is not
 With u = (along the tangent towards the own tip, along the line of action) a point of the flank is (r_b + x, rho - h), the tip's
 place is x < 0, h how far the flank lies behind the tangent there, and t the slope of the mate's flank, both as angles. The arm
 is (r_b + x) cos t - (rho - h) sin t, and to first order r_b + x (1 + rho/rho_mate).
+
+Under load the tip stands elsewhere: turn and deflection slide it along the tangent. So levers and gaps are those of the
+turned flanks; the difference is of second order, as the slides are some hundredths of a mm.
 """
 
 from __future__ import annotations
@@ -15,7 +18,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gearcad.contact.shared.line_of_action import LineOfAction, TransverseFlank
+from gearcad.contact.shared.line_of_action import AS_PLACED, LineOfAction, TransverseFlank
 from gearcad.core.records import Bools, Floats, PerGear, Role
 
 _STEP = 1e-4
@@ -52,6 +55,35 @@ def tip_edges(line: LineOfAction, touching: PerGear[Floats]) -> TipEdges:
     return found
 
 
+class LoadedTip(NamedTuple):
+    """The edge of a gear's tip that presses on its mate, and how far the load has moved both flanks.
+
+    Each gear of `turns` (mm along the line of action) would slide its flank as far along the tangent as its turn and its
+    deflection do together. By `ahead` (rad) the gear of the tip has turned on from there.
+    """
+
+    role: Role
+    turns: PerGear[float] = AS_PLACED
+    ahead: float = 0.0
+
+    def forces(self, line: LineOfAction, pinion_length: float, places: Floats) -> TipEdges:
+        """Return the forces of cells at places (n,) along the tangent (mm, towards the pinion's tip), each with its own lever.
+
+        The unloaded flanks touch at `pinion_length` (mm from T1).
+        """
+        found, touching = TipEdges.none(len(places)), line.lengths(pinion_length, self.turns)
+        own, mate = line.flanks.pick(self.role), line.flanks.pick(_mate(self.role))
+        contact, opposite = (np.full(len(places), touching.pick(role)) for role in (self.role, _mate(self.role)))
+        arms, tilts = _tilted(own, mate, contact, opposite, places if self.role is Role.PINION else -places)
+        found.arms.pick(self.role)[:], found.tilts.pick(self.role)[:] = arms, tilts + self.ahead
+        return found
+
+    def gap(self, edges: TipEdges) -> Floats:
+        """Return what the gaps (n,) in mm of the turned flanks gain: so they close by the turns, at the levers of these."""
+        arms = edges.arms
+        return (arms.pinion - 1) * self.turns.pinion - (arms.wheel - 1) * self.turns.wheel
+
+
 def _mate(role: Role) -> Role:
     return Role.WHEEL if role is Role.PINION else Role.PINION
 
@@ -65,14 +97,14 @@ def _beyond(own: TransverseFlank, place: Floats, start: Floats, contact: Floats)
 def _tilted(
     own: TransverseFlank, mate: TransverseFlank, contact: Floats, opposite: Floats, place: Floats
 ) -> tuple[Floats, Floats]:
-    """Return arms over the base radius, and tilts (rad), of tips at places (n,) along the tangent (mm)."""
-    _, behind = own.facing(contact, place)
+    """Return arms over the base radius, and tilts (rad), at places (n,) along the tangent (mm), towards the own tip."""
+    own_lengths, behind = own.facing(contact, place)
     lengths, _ = mate.facing(opposite, -place)
     turn = mate.turned(lengths - opposite)
     slope = turn
     if mate.form.modification.present:
         slope = turn + _relieved(mate, lengths) * mate.base_radius / (lengths * np.cos(turn))
-    return own.arms(place, contact - behind, slope), slope - own.turned(own.last - contact)
+    return own.arms(place, contact - behind, slope), slope - own.turned(own_lengths - contact)
 
 
 def _relieved(flank: TransverseFlank, lengths: Floats) -> Floats:
