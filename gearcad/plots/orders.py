@@ -52,6 +52,11 @@ def orders_inches(of: OrderChart | OrderTracks) -> tuple[float, float]:
     return FIGURE_INCHES[0], 0.6 + _PANEL * max(len(_members(of.names)), 1)
 
 
+def _speed_words(names: tuple[tuple[str, ...], tuple[str, ...], tuple[str, ...]]) -> str:
+    """Return the label of the axis of speed: without meshes it is that of the first inertia."""
+    return f"speed of the first {'pinion' if names[0] else 'inertia'} in rpm"
+
+
 def _order_words(order: SpeedOrder) -> str:
     return f"order {order.order:.5g}" + (f" ({plain(order.source)})" if order.source else "")
 
@@ -77,7 +82,7 @@ def plot_orders(chart: OrderChart, figure: Figure | None = None) -> Figure:
         panel.set_ylim(bottom=0)
         panel.legend(frameon=False, fontsize=8, loc="upper right")
     panels[0].set_xlim(float(chart.speeds[0]), float(chart.speeds[-1]))
-    panels[-1].set_xlabel("speed of the first pinion in rpm")
+    panels[-1].set_xlabel(_speed_words(chart.names))
     return of
 
 
@@ -98,7 +103,7 @@ def plot_tracks(tracks: OrderTracks, chart: OrderChart | None, figure: Figure | 
         panel.set_ylim(0, 1.12 * float(values.max(initial=0.0)) or 1.0)
         panel.legend(frameon=False, fontsize=8, loc="upper right")
     panels[0].set_xlim(float(tracks.speeds.min()), float(tracks.speeds.max()))
-    panels[-1].set_xlabel("speed of the first pinion in rpm")
+    panels[-1].set_xlabel(_speed_words(tracks.names))
     return of
 
 
@@ -115,7 +120,7 @@ def plot_spectrogram(tracks: OrderTracks, natural: Floats, figure: Figure | None
         _draw_map(panel, tracks, member)
         _draw_orders(panel, tracks, natural)
     legend_above(panels[0], 2, raised=10)
-    panels[-1].set_xlabel("speed of the first pinion in rpm")
+    panels[-1].set_xlabel(_speed_words(tracks.names))
     return of
 
 
@@ -160,7 +165,7 @@ def _draw_orders(axes: Axes, tracks: OrderTracks, natural: Floats) -> None:
         last = height if end == right else last
         label = axes.text(end, min(height, 0.985 * top), f"{each.order:.5g}", ha="right", va="top", fontsize=7, color="white")
         label.set_path_effects(outlined)
-    axes.plot([], [], color=MARKED, linewidth=0.8, linestyle=":", label="orders of the first pinion")
+    axes.plot([], [], color=MARKED, linewidth=0.8, linestyle=":", label="orders of this speed")
     words = "natural frequencies: "
     inside = [hertz for hertz in natural.tolist() if 0 < hertz < top]
     for number, hertz in enumerate(inside):
