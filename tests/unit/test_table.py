@@ -50,7 +50,10 @@ def test_every_key_of_a_spec_can_be_a_column() -> None:
         assert open_table("t.csv").keys == ("name", *keys)
 
 
-PERMITTED_LOAD = "unknown column; permitted behind load. are torque, speed, application_factor"
+PERMITTED_LOAD = (
+    "unknown column; permitted behind load. are torque, speed, application_factor, ambient_temperature, duty, lubrication, "
+    "housing_area, housing_resistance"
+)
 EXAMPLES = "unknown column; must be name, or a key of a spec with its table, such as"
 
 
