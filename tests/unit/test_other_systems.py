@@ -22,7 +22,13 @@ UNIX_FUNCTIONS = {"fork", "killpg", "getuid", "geteuid", "setsid", "sched_getaff
 FORKED_ONLY = PACKAGE / "core" / "guard.py"
 """The module whose signals are used after `os.fork` only, which Windows has not; `CAN_GUARD` asks for it."""
 
-TRIED = (ast.Try, ast.With)
+
+def _asks(node: ast.AST) -> bool:
+    """Return whether a statement has a way out for other systems: try, with, and an if that asks for the system."""
+    asked = ("sys.platform", "hasattr(")
+    return isinstance(node, ast.Try | ast.With) or (
+        isinstance(node, ast.If) and any(each in ast.unparse(node.test) for each in asked)
+    )
 
 
 TOLD = re.compile(
@@ -59,11 +65,11 @@ def _wrong_in(file: Path, tree: ast.Module) -> Iterator[str]:
 
 
 def _inside_of_tries(node: ast.AST, inside: bool) -> Iterator[ast.AST]:
-    """Yield the nodes that a try or a with surrounds."""
+    """Yield the nodes inside of statements with a way out."""
     if inside:
         yield node
     for child in ast.iter_child_nodes(node):
-        yield from _inside_of_tries(child, inside or isinstance(node, TRIED))
+        yield from _inside_of_tries(child, inside or _asks(node))
 
 
 def _asked_for(name: str, text: str) -> bool:
@@ -105,6 +111,8 @@ def test_texts_and_signals_do_not_depend_on_the_system():
         ("path.read_text()", 1),
         ('path.open("w", encoding="utf-8")', 1),
         ("import fcntl", 1),
+        ('if sys.platform == "linux":\n    import resource', 0),
+        ("if wanted:\n    import resource", 1),
         ("try:\n    import fcntl\nexcept ImportError:\n    fcntl = None", 0),
         ("os.kill(child, signal.SIGKILL)", 1),
         ("subprocess.run([program], text=True)", 1),
