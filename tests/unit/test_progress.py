@@ -242,7 +242,7 @@ PAIR = GearPair(
 
 def steps(**options: object) -> dict[str, float]:
     asked = replace(CheckOptions(), **options)
-    return plane_steps(check_task(PAIR, material=None, load=Load(torque=302.0), options=asked))  # type: ignore[arg-type]
+    return plane_steps(check_task(PAIR, Material(), Load(torque=302.0), asked))
 
 
 def test_steps_follow_what_is_asked_for() -> None:
