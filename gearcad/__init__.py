@@ -39,6 +39,7 @@ gearcad.core.errors.ParameterError: load = 60: must be a Load
     planetary(train, load)         speeds, torques, assembly, load sharing, stiffness and modes of a planetary train
     shafts(pair, load)             deflection of shafts, life of their bearings, load over the face
     modify(pair, load)             tip relief and crowning for the load
+    wear(pair, load)               profiles, load sharing and life of flanks that wear
     identify(teeth, ...)           the standard gears that measured diameters, spans or pins may be of
     tools(pair)                    the tools of the shelf that would cut the gears, with the root that each would leave
     export_rexs(pair)              the file of REXS, for other programs for drives; import_rexs(file) reads one
@@ -102,6 +103,7 @@ __getattr__, _, _names = lazy_loader.attach(
         "jobs.build": ["build"],
         "jobs.draw": ["draw", "picture"],
         "jobs.exchange": ["export_rexs", "import_rexs"],
+        "jobs.wear": ["wear"],
         "jobs.job": ["data"],
         "jobs.mesh": ["mesh"],
         "jobs.modify": ["modify"],

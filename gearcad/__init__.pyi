@@ -59,6 +59,7 @@ from .jobs.strength import rate as rate
 from .jobs.strength import stiffness as stiffness
 from .jobs.tools import tools as tools
 from .jobs.verification import verify as verify
+from .jobs.wear import wear as wear
 from .load import Load as Load
 from .material import Material as Material
 from .mounting import Mounting as Mounting

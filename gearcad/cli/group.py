@@ -53,7 +53,7 @@ class Commands(click.Group):
     def list_commands(self, _ctx: click.Context) -> list[str]:
         """Return the names of the commands in the order of use, not in alphabetical order."""
         beside = ["size", "identify", "tools", "export", "import", "study", "batch", "plot", "open", "doctor", "completion"]
-        return ["new", *job_commands(), *beside]
+        return ["new", *job_commands(), "wear", *beside]
 
     def get_command(self, ctx: click.Context, name: str) -> click.Command | None:
         """Return a command, whose module is imported now: a command is as quick to start as what it needs."""
