@@ -179,7 +179,7 @@ def check_task(
 
 def _at_temperature(task: CheckTask) -> CheckTask:
     """Return the task with the moduli of plastics at the temperature of their roots, where a table has them over it."""
-    if not any(isinstance(each.youngs_modulus, TabledNumber) for each in task.materials or ()):
+    if not any(isinstance(each.youngs_modulus, TabledNumber) for each in task.materials):
         return task
     plastic = task.strength_rating.plastic
     found = None if plastic is None else plastic.temperatures

@@ -19,7 +19,7 @@ from gearcad.contact.plane.cycle import PlaneCycle, PlanePairContact
 from gearcad.contact.plane.pair import KnownContacts, PlanePair
 from gearcad.contact.shared.line_of_action import LineOfAction, TransverseFlank
 from gearcad.core.records import Floats, PerGear, Role, freeze
-from gearcad.rating.friction import sliding_levers
+from gearcad.geometry.tooth_friction import sliding_levers
 
 _DEGREE = 3
 _SWEEP = (np.arange(5) + 0.5) / 5 - 0.5
