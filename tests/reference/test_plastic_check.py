@@ -81,8 +81,12 @@ def test_two_materials_share_the_load_as_calculix_has_it(
 @pytest.mark.long
 @pytest.mark.parametrize("row", [*rows(LIGHT)], ids=lambda row: f"{row['roll_angle']}°")
 def test_calculix_finds_these_figures(design: PairDesign, row: dict[str, Any], tmp_path: Path) -> None:
-    """The command by which the file was made: `ccx pair` on the deck of the position."""
-    deck = PlaneDecks(task_at(design, 0.02)).at(row["roll_angle"])
+    """The command by which the file was made: `ccx pair` on the deck of the position, at refinement 1.
+
+    In finer elements the strains of steel are lost in the six digits of the displacements, which the turn of the pinion fills.
+    """
+    task = task_at(design, 0.02)
+    deck = PlaneDecks(replace(task, options=replace(task.options, refinement=1.0))).at(row["roll_angle"])
     deck.write(tmp_path / "pair.inp")
     run_ccx(tmp_path, "pair", timeout=3600)
     found = deck.found(tmp_path / "pair")
