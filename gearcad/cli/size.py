@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 _SIZE_TABLE_HEADING = (
     *("pair", "a mm", "b mm", "x1", "x2", "u", "kg", "S_H", "S_F1", "S_F2", "eps_a", "eps_b", "sliding", "°C", "ripple %"),
-    *("TE µm", "front", "notice"),
+    *("TE µm", "efficiency %", "loss W", "front", "notice"),
 )
 
 _WIDTH = 120
@@ -98,6 +98,8 @@ def _size_table_row(each: SizedPair) -> tuple[str, ...]:
         "" if each.temperature is None else f"{each.temperature:.0f}",
         f"{100 * each.ripple:.0f}",
         "" if each.transmission_error is None else f"{each.transmission_error:.2f}",
+        "" if each.efficiency is None else f"{100 * each.efficiency:.3f}",
+        "" if each.mean_loss is None else f"{each.mean_loss:.3g}",
         "*" if each.front else "",
     )
 
@@ -253,6 +255,8 @@ def _size_remarks(result: Sizing, best: Path) -> Iterator[str]:
         yield f"notice {number}: {texts[0]}{f' (and alike of others, {len(texts)} in all)' if len(texts) > 1 else ''}"
     yield f"{grouped(result.considered)} variants, {grouped(result.rated)} rated; a line for each teeth, module and helix angle"
     yield "ripple: of the length of the lines of contact; TE: transmission error, peak to peak, FE, no modifications;"
+    if result.task.friction is not None:
+        yield "efficiency: of the mesh, by H_V of Ohlendorf and the mean coefficient of friction; without shafts and seals"
     yield "front: none of the best is both lighter and safer; front.csv has pairs along the front of all variants"
     yield "mass of plain discs; no pair has backlash yet: tooth_thinning or tooth_allowance gives it"
     if result.unmade:

@@ -351,6 +351,7 @@ def pair_keys(sized: SizedPair) -> dict[str, dict[str, Any]]:
         "wheel": {"teeth": sized.teeth.wheel, "profile_shift": AUTO},
         "load": _changed_fields("", task.load),
         "rating": _changed_fields("", task.rating),
+        "check": {} if task.friction is None else {"friction": task.friction},
     }
     if one == other:
         tables["material"] = _material("", one)
@@ -415,7 +416,7 @@ def sized_pair_text(sized: SizedPair, comments: Sequence[str]) -> str:
 
 
 def _tables(sized: SizedPair) -> Mapping[str, Mapping[str, Any]]:
-    order = ("pair", "pinion", "wheel", "material", "load", "rating")
+    order = ("pair", "pinion", "wheel", "material", "load", "rating", "check")
     keys = pair_keys(sized)
     return {table: keys[table] for table in order if table in keys}
 

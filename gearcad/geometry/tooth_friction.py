@@ -10,11 +10,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from gearcad.core.records import Floats, Role
+from gearcad.core.values import Numbers, chosen, cos, radians, smaller
 from gearcad.geometry.pair import GearPair
+from gearcad.geometry.pair_data import PairSizes
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -53,15 +56,21 @@ def sliding_levers(pair: GearPair, places: Floats | float) -> Floats:
 
 
 def ohlendorf_loss_factor(pair: GearPair) -> float | None:
-    """Return H_V = pi (u + 1)/(z_1 u cos beta_b) (1 - eps_alpha + eps_1^2 + eps_2^2); None where it does not hold.
+    """Return Ohlendorf's loss factor H_V of a pair; None where it does not hold."""
+    factor = float(loss_factors(pair))
+    return None if math.isnan(factor) else factor
+
+
+def loss_factors(pair: PairSizes[Any]) -> Numbers:
+    """Return H_V = pi (u + 1)/(z_1 u cos beta_b) (1 - eps_alpha + eps_1^2 + eps_2^2) of a pair or of many; nan where it does
+    not hold.
 
     H. Ohlendorf, Munich 1958: one pair of teeth carries all of the load, two carry half each. The pitch point must lie in
     the path of contact, and the contact ratio between 1 and 2.
     """
-    path, pitch = pair.path_of_contact, pair.pinion.transverse_base_pitch
-    first, second = (path.E - path.C) / pitch, (path.C - path.A) / pitch
-    if not 1 <= first + second <= 2 or min(first, second) < 0:
-        return None
-    ratio, helix = pair.gear_ratio, math.radians(pair.pinion.base_helix_angle)
-    sliding = math.pi * (ratio + 1) / (pair.pinion.teeth * ratio * math.cos(helix))
-    return sliding * (1 - (first + second) + first**2 + second**2)
+    path, pinion, ratio = pair.path_of_contact, pair.gears.pinion, pair.gear_ratio
+    first, second = ((end / pinion.transverse_base_pitch) for end in (path.E - path.C, path.C - path.A))
+    known = (first + second >= 1) & (first + second <= 2) & (smaller(first, second) >= 0)
+    sliding = math.pi * (ratio + 1) / (pinion.teeth * ratio * cos(radians(pinion.base_helix_angle)))
+    factors: Numbers = chosen(known, sliding * (1 - (first + second) + first**2 + second**2), math.nan)
+    return factors

@@ -43,7 +43,7 @@ SET_OPTIONS = (
 
 OF_PAIRS = (
     *("centre_distance", "max_mass", "shift", "shift_sum", "max_width", "contact_ratio", "tip_thickness", "rack", "tool", "by"),
-    "errors",
+    *("friction", "errors"),
 )
 """Options of pairs that sets do not have."""
 

@@ -74,7 +74,16 @@ SIZE_OPTIONS = (
     SizeOption("tip_thickness", float, "S/M", "Least, in modules.  [default: 0.2; Eh 0.4]", "task.least_tip_thickness"),
     SizeOption("rack", str, "NAME", "A, B, C or D of ISO 53.  [default: A]", "task.rack"),
     SizeOption("tool", str, "NAME", "A hob of the shelf in place of the rack (gearcad tools).", "task.tool"),
-    SizeOption("by", str, "CRITERION", "mass, safety, quiet, sliding or scuffing.  [default: mass]", "task.criterion"),
+    SizeOption(
+        "by", str, "CRITERION", "mass, safety, quiet, sliding, scuffing or efficiency.  [default: mass]", "task.criterion"
+    ),
+    SizeOption(
+        "friction",
+        str,
+        "MU",
+        "Of the flanks: a coefficient, integral or niemann.  [default: integral, with --by efficiency]",
+        "task.friction",
+    ),
 )
 """The options of a search for pairs, in the order of use."""
 
@@ -162,7 +171,16 @@ def _task(given: Mapping[str, Any]) -> SizeTask:
             fields["modules"] = own
     if given["by"] is not None:
         fields["criterion"] = given["by"]
+    if given["friction"] is not None:
+        fields["friction"] = _number_or_word(given["friction"])
     return SizeTask(load=load_of(given), materials=PerGear(pinion, wheel), rating=rating_of(given), **fields)
+
+
+def _number_or_word(text: str) -> float | str:
+    try:
+        return float(text)
+    except ValueError:
+        return text
 
 
 def _modules_of_tool(name: str) -> tuple[float, ...]:

@@ -120,6 +120,7 @@ def _sized_row(pair: SizedPair) -> dict[str, Any]:
         "temperature": pair.temperature,
         "ripple": 100 * pair.ripple,
         "error": pair.transmission_error,
+        "efficiency": None if pair.efficiency is None else 100 * pair.efficiency,
         "front": pair.front,
     }
 

@@ -9,6 +9,7 @@ from typing import Literal
 
 from gearcad.core.errors import ParameterError
 from gearcad.core.records import JsonObject, PerGear, Role
+from gearcad.core.values import Values
 from gearcad.geometry import GearPair
 from gearcad.geometry.tooth_friction import MeshFriction, ohlendorf_loss_factor
 from gearcad.load import Load
@@ -75,13 +76,16 @@ def mesh_friction(
     )
 
 
-def mean_coefficient(force: float, sum_velocity: float, radius: float, viscosity: float, roughness: float, oil: float) -> float:
+def mean_coefficient(
+    force: Values, sum_velocity: Values, radius: Values, viscosity: float, roughness: float, oil: float
+) -> Values:
     """Return mu_m = 0.048 (F_bt/(b v_sumC rho_C))^0.2 eta^-0.05 Ra^0.25 X_L.
 
     By G. Niemann and H. Winter, and ISO/TR 14179-2, as remembered: unconfirmed. `force` F_bt/b in N/mm, `sum_velocity` of
     both flanks at the pitch point in m/s, reduced `radius` there in mm, `viscosity` in mPa s, `roughness` Ra in µm, `oil` X_L.
     """
-    return float(0.048 * (force / (sum_velocity * radius)) ** 0.2 * viscosity**-0.05 * roughness**0.25 * oil)
+    found: Values = 0.048 * (force / (sum_velocity * radius)) ** 0.2 * viscosity**-0.05 * roughness**0.25 * oil
+    return found
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -62,7 +62,8 @@ class SizedPair:
     least of S_H/S_Hmin and S_F/S_Fmin.
     `ripple` is how much the lines of contact change in length, `temperature` the integral temperature (°C, None without one).
     `strength` is the full rating of the pair, and `transmission_error` (µm, peak to peak at the torque of the load) that of its
-    flexible bodies, where they were worked out; `front` says that nothing among the best is both lighter and safer.
+    flexible bodies, where they were worked out; `efficiency` that of the mesh, None without friction or where Ohlendorf's loss
+    factor does not hold; `front` says that nothing among the best is both lighter and safer.
     """
 
     task: SizeTask
@@ -85,6 +86,7 @@ class SizedPair:
     front: bool = False
     strength: StrengthRating | None = None
     transmission_error: float | None = None
+    efficiency: float | None = None
 
     @classmethod
     def of(cls, task: SizeTask, rated: Rated, *, narrowed: bool = True) -> SizedPair:
@@ -112,6 +114,7 @@ class SizedPair:
             temperature=None if math.isnan(temperature) else temperature,
             flank_safeties=PerGear(*map(number, rated.flank_safeties)),
             root_safeties=PerGear(*map(number, rated.root_safeties)),
+            efficiency=None if rated.efficiency is None or math.isnan(rated.efficiency[0]) else number(rated.efficiency),
         )
 
     @property
@@ -134,6 +137,14 @@ class SizedPair:
             pressure_angle=self.task.rack.pressure_angle,
             centre_distance=self.centre_distance,
         )
+
+    @property
+    def mean_loss(self) -> float | None:
+        """Power that the mesh loses (W); None without an efficiency or a speed."""
+        load = self.task.load
+        if self.efficiency is None or load.speed == 0:
+            return None
+        return (1 - self.efficiency) * load.torque * abs(load.speed) * math.pi / 30
 
     def pair(self) -> GearPair:
         """The pair, without backlash, its tips altered to keep the clearance of the rack. Raises GeometryError."""
@@ -177,6 +188,7 @@ class SizedPair:
             "notices": [] if self.strength is None else [notice.to_dict() for notice in self.strength.notices],
             "transmission_error": self.transmission_error,
             "front": self.front,
+            **({} if self.task.friction is None else {"efficiency": self.efficiency, "mean_loss": self.mean_loss}),
         }
 
 
@@ -245,6 +257,7 @@ class Sizing(Pictured):
                 "materials": {role.value: inputs_document(material) for role, material in task.materials.items()},
                 "rating": inputs_document(task.rating),
                 "rack": asdict(task.rack),
+                **({} if task.friction is None else {"friction": task.friction}),
                 **({} if task.tool is None else {"tool": str(task.tool)}),
             },
             "found": [each.to_dict() for each in self.found],

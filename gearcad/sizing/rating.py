@@ -15,8 +15,10 @@ import numpy as np
 
 from gearcad.core.records import Bools, Floats, Indices, PerGear, Role, Wholes
 from gearcad.core.values import Numbers
+from gearcad.geometry.tooth_friction import loss_factors
 from gearcad.rating.dynamic_factor import effective_relief, flank_wear
 from gearcad.rating.editions import Both, both
+from gearcad.rating.friction import mean_coefficient
 from gearcad.rating.load_factor_formulas import (
     UNLOADED_ENDS,
     DeviationEffects,
@@ -275,6 +277,7 @@ class Rated(Columns):
 
     `flank_safeties` S_H, `root_safeties` S_F; `margin` is the least of S_H/S_Hmin and S_F/S_Fmin, `mass` (kg) that of both
     gears, `temperature` (°C) the integral temperature, nan without a speed, `load_factors` K_A K_gamma K_v K_Hbeta K_Halpha.
+    `efficiency` of the mesh is nan where Ohlendorf's loss factor does not hold, None without friction.
     """
 
     order: Wholes
@@ -287,6 +290,7 @@ class Rated(Columns):
     margin: Floats
     temperature: Floats
     load_factors: Floats
+    efficiency: Floats | None = None
 
     @property
     def total_contact_ratio(self) -> Floats:
@@ -398,6 +402,7 @@ def _rated(task: SizeTask, pairs: ManyPairs, width: Floats, wanted: Bools, order
                 "margin": margin,
                 "temperature": _temperature(task, nominal, loads),
                 "load_factors": loads.flank,
+                **({} if task.friction is None else {"efficiency": _efficiency(task, nominal, loads)}),
             }.items()
         },
     )
@@ -412,13 +417,18 @@ def _flat(values: Floats | PerGear[Floats], shape: tuple[int, ...], rows: Indice
 
 def _temperature(task: SizeTask, nominal: NominalStresses, loads: ManyLoadFactors) -> Floats:
     """Integral temperature (°C) without tip relief; nan without a speed."""
-    pairs, options = nominal.pairs, task.rating
     if task.load.speed == 0:
         return np.full(nominal.width.shape, np.nan)
+    return np.asarray(_sliding_mesh(task, nominal, loads, loads.flank).value)
+
+
+def _sliding_mesh(task: SizeTask, nominal: NominalStresses, loads: ManyLoadFactors, factors: Numbers) -> IntegralTemperature:
+    """Return the integral temperature of meshes without tip relief, under F_t times `factors`."""
+    options = task.rating
     oil = Oil.of(options)
-    temperature = IntegralTemperature(
-        mesh=SlidingMesh.of(pairs, loads.total_contact_ratio),
-        specific_load=nominal.tangential_force * loads.flank / nominal.width,
+    return IntegralTemperature(
+        mesh=SlidingMesh.of(nominal.pairs, loads.total_contact_ratio),
+        specific_load=nominal.tangential_force * factors / nominal.width,
         speed=loads.speed,
         roughness=USUAL_ROUGHNESS / RZ_OVER_RA,
         viscosity=oil.dynamic_viscosity,
@@ -428,4 +438,27 @@ def _temperature(task: SizeTask, nominal: NominalStresses, loads: ManyLoadFactor
         mating=mating_factor(max(both(options.contacts_per_turn))),
         oil_temperature=oil.temperature,
     )
-    return np.asarray(temperature.value)
+
+
+def _efficiency(task: SizeTask, nominal: NominalStresses, loads: ManyLoadFactors) -> Floats:
+    """Return the efficiencies of meshes, 1 - mu H_V; nan where H_V does not hold. Of load factors mu has K_A alone."""
+    pairs, law, application = nominal.pairs, task.friction, task.load.application_factor
+    coefficient: Numbers
+    if law is None or isinstance(law, float | int):
+        coefficient = law or 0.0
+    else:
+        mesh = _sliding_mesh(task, nominal, loads, application)
+        if law == "integral":
+            coefficient = np.asarray(mesh.friction)
+        else:
+            radius = pairs.base_diameters.pinion / 2
+            tangent = np.tan(np.radians(np.asarray(pairs.working_transverse_pressure_angle)))
+            coefficient = mean_coefficient(
+                task.load.torque * application * 1000 / radius / nominal.width,
+                2 * math.pi * abs(task.load.speed) / 30_000 * radius * tangent,
+                np.asarray(mesh.mesh.pitch_radius),
+                mesh.viscosity,
+                USUAL_ROUGHNESS / RZ_OVER_RA,
+                mesh.lubricant,
+            )
+    return np.asarray(1 - coefficient * loss_factors(pairs))

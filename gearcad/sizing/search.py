@@ -220,6 +220,7 @@ def _keys(rated: Rated, criterion: Criterion) -> tuple[np.ndarray[Any, Any], ...
         Criterion.QUIET: np.round(rated.ripple, 2),
         Criterion.SLIDING: np.round(rated.sliding, 2),
         Criterion.SCUFFING: np.round(rated.temperature),
+        Criterion.EFFICIENCY: rated.mass if rated.efficiency is None else np.round(-rated.efficiency, 4),
     }[criterion]
     return _figures(first), _figures(rated.mass), _figures(-rated.margin), _figures(rated.sliding), rated.order
 

@@ -10,13 +10,14 @@ from functools import cached_property
 from typing import Annotated, Any
 
 from gearcad.core.errors import GeometryError, ParameterError, is_finite_number
-from gearcad.core.quantities import LENGTH, Range, Whole, Words, require_fields
+from gearcad.core.quantities import FRICTION, LENGTH, Range, Whole, Words, require_fields
 from gearcad.core.records import PerGear, concise, naming
 from gearcad.geometry import ISO53_A, BasicRack
 from gearcad.geometry.gear_parts import ISO_54_I, ISO_54_II
 from gearcad.geometry.tool_shelf import ToolName, find_tool
 from gearcad.load import Load
 from gearcad.material import Material, MaterialGroup
+from gearcad.rating.friction import FrictionLaw
 from gearcad.rating.material_limits import EnduranceLimits, endurance_limits
 from gearcad.rating.options import BearingArrangement, RatingOptions
 from gearcad.rating.scuffing_temperatures import Oil, ScuffingLimits, structure_factor
@@ -62,6 +63,9 @@ class Criterion(StrEnum):
     SCUFFING = "scuffing"
     """The integral temperature."""
 
+    EFFICIENCY = "efficiency"
+    """The efficiency of the mesh, by Ohlendorf's loss factor."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class SizeTask:
@@ -73,8 +77,10 @@ class SizeTask:
     The wheel has every number of teeth within `ratio_tolerance` (%). `max_diameter` is the most of any tip circle, `max_mass`
     (kg) of both gears, None REACH times that of the lightest where another criterion than mass comes first, and
     `max_width_in_modules` that of b/m_n; `least_tip_thickness` (normal modules) None is 0.4 where case-hardened, else 0.2. The
-    order of tuples has no say. A `tool` of the shelf, a hob that makes all of the teeth, stands in place of the `rack`; its tip
-    radius may go with the module. Raises ParameterError, SpecError for a table of tools with a fault.
+    order of tuples has no say. `friction` of the flanks, a coefficient or the law "integral" or "niemann", gives an efficiency;
+    None is none, or "integral" where efficiency comes first. A `tool` of the shelf, a hob that makes all of the teeth, stands
+    in place of the `rack`; its tip radius may go with the module. Raises ParameterError, SpecError for a table of tools with a
+    fault.
     """
 
     load: Load
@@ -99,6 +105,7 @@ class SizeTask:
     least_contact_ratio: Annotated[float, Range("", 1.0, 2.0), Words("least transverse contact ratio", "ε_α")] = 1.2
     least_tip_thickness: Annotated[float | None, Range("", 0.0, 1.0), Words("least thickness of tips", "s_an/m_n")] = None
     criterion: Annotated[Criterion, Words("what comes first")] = Criterion.MASS
+    friction: Annotated[float | FrictionLaw | None, FRICTION, Words("friction of the flanks, or its law", "µ")] = None
 
     __repr__ = concise
 
@@ -112,6 +119,16 @@ class SizeTask:
         self._take_tool()
         self._check_variants()
         self._check_limits()
+        self._take_friction()
+
+    def _take_friction(self) -> None:
+        """Take the default law where efficiency comes first. Raises ParameterError for a law that has no coefficient here."""
+        if self.friction is None and self.criterion is Criterion.EFFICIENCY:
+            object.__setattr__(self, "friction", "integral")
+        if self.friction == "flash":
+            raise ParameterError("friction", self.friction, 'must be a number, "integral" or "niemann"')
+        if isinstance(self.friction, str) and self.load.speed == 0:
+            raise ParameterError("friction", self.friction, "must be a number at 0 rpm: laws go by the speed")
 
     def _take_tool(self) -> None:
         """Take the rack of the tool, if there is one. Raises ParameterError unless it cuts every module that is tried."""

@@ -1,6 +1,7 @@
 """`gearcad size` and `gearcad planetary --ratio`: tables, files, and what is said where nothing is found."""
 
 import csv
+import itertools
 import json
 from pathlib import Path
 
@@ -11,9 +12,10 @@ from support.commands import invoke, read_json
 from gearcad.cli import main
 from gearcad.designs import PairDesign, PlanetaryDesign, read_spec
 from gearcad.designs.table import open_table
+from gearcad.jobs.strength import Rate
 from gearcad.planetary.members import SetType
 from gearcad.planetary.power import efficiency
-from gearcad.rating.strength import rate_strength
+from gearcad.rating.strength import StrengthRating, rate_strength
 
 RANGES = (
     "--teeth 17:20 --module 2,2.5 --helix-angle 0,15 --width-ratio 0.8,1 --shift 0.2:0.6:0.2 --shift-sum 0.5 "
@@ -55,6 +57,36 @@ def test_files_and_table(tmp_path: Path) -> None:
     assert [each.safety for each in rated.flank] == pytest.approx(list(points[0]["flank_safeties"].values()), rel=1e-9)
     assert points[0]["teeth"]["pinion"] == lightest.pair.pinion.teeth
     assert (tmp_path / "front.png").read_bytes().startswith(b"\x89PNG")
+
+
+_LONG = pytest.mark.long
+
+
+@pytest.mark.parametrize("friction", ["integral", pytest.param("0.05", marks=_LONG), pytest.param("niemann", marks=_LONG)])
+def test_efficiency_of_the_first_is_that_of_rate(tmp_path: Path, friction: str) -> None:
+    """`rate` makes each pair from its drawing and rates it alone."""
+    ranges = {"count": "10", "module": "2,2.5,3", "helix_angle": "0,10,15,20", "shift": "0:0.6:0.2"}
+    found = run("-o", tmp_path, "--by", "efficiency", friction=friction, **ranges)
+    assert found.exit_code == 0, found.output
+    assert "efficiency %" in found.stdout.splitlines()[0]
+    figures = read_json(tmp_path / "size.json")["found"]
+    designs = [row.design() for row in open_table(tmp_path / "pairs.csv").rows()]
+    values = [each["efficiency"] for each in figures]
+    assert len(designs) == len(values) == 10
+    # Efficiencies count as equal within 0.01 %.
+    assert all(first >= second - 1.01e-4 for first, second in itertools.pairwise(values))
+    for design, own in zip(designs, figures, strict=True):
+        assert isinstance(design, PairDesign)
+        rating = Rate(report=False).run(design)
+        assert isinstance(rating, StrengthRating) and rating.efficiency is not None
+        assert own["efficiency"] == pytest.approx(rating.efficiency.efficiency, rel=1e-12)
+        assert own["mean_loss"] == pytest.approx(rating.efficiency.mean_loss, rel=1e-9)
+
+
+def test_laws_without_a_coefficient_are_told(tmp_path: Path) -> None:
+    assert "friction = 'flash'" in run("-o", tmp_path, friction="flash").output
+    assert "0 rpm" in run("-o", tmp_path, "--rating", "dynamic_factor=1", speed="0", friction="integral", life="1").output
+    assert "efficiency" not in run("-o", tmp_path).stdout
 
 
 def test_nothing_found_says_why_and_what_would_help(tmp_path: Path) -> None:

@@ -192,6 +192,7 @@ def _pair_columns(words: PageWords) -> list[FoundColumn]:
         FoundColumn("temperature", "", words["integral temperature"], 0, "°C"),
         FoundColumn("ripple", "%", words["change of the length of the lines of contact"], 0),
         FoundColumn("error", "TE", words["transmission error, peak to peak"], 2, "µm"),
+        FoundColumn("efficiency", "η %", words["efficiency of a mesh"], 3),
     ]
 
 

@@ -194,6 +194,7 @@ def choice_words(words: PageWords) -> dict[str, str]:
         "quiet": words["quiet running"],
         "sliding": words["little sliding"],
         "scuffing": words["little scuffing"],
+        "efficiency": words["efficiency of a mesh"],
         "true": words["yes"],
         "sun": words["sun"],
         "ring": words["ring"],
