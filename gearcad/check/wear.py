@@ -26,6 +26,9 @@ _SPANS = 60
 
 _MOST_STEPS = 400
 
+_SWING = 0.05
+"""Share of the root stress by which a state may stand off the mean of those before and after it."""
+
 _TOLD = 121
 """Places along a flank at which a profile is told."""
 
@@ -38,7 +41,7 @@ class WearOptions:
     """The greatest depth (µm) up to which a flank is worn, None for 0.1 m_n, in so many steps; positions over a base pitch."""
 
     loss: float | None = None
-    steps: int = 20
+    steps: int = 50
     positions: int = 30
 
     def __post_init__(self) -> None:
@@ -230,7 +233,7 @@ def wear_pair(task: CheckTask, options: WearOptions | None = None, progress: Pro
         states=tuple(states),
         asked_cycles=asked,
         guideline=_guideline(task),
-        notices=tuple(_notices(task)),
+        notices=(*_notices(task), *_swings(states)),
     )
 
 
@@ -271,6 +274,15 @@ def _notices(task: CheckTask) -> Iterator[Notice]:
     yield Notice("wear-stiffness", "worn teeth count as stiff as new ones: wear changes the gaps of the flanks alone")
     if task.load.application_factor != 1:
         yield Notice("wear-load", "wear is that of the torque with K_A all the time")
+
+
+def _swings(states: list[WornState]) -> Iterator[Notice]:
+    """Yield a notice where root stresses swing from step to step: steps are then too large for the flanks to follow."""
+    stress = np.array([tuple(state.root_stresses) for state in states])
+    middle = stress[1:-1]
+    swing = np.max(np.abs(middle - (stress[:-2] + stress[2:]) / 2) / middle, initial=0.0)
+    if swing > _SWING:
+        yield Notice("wear-steps", f"root stress swings by {100 * swing:.0f} % from step to step: give more steps")
 
 
 def _frozen(values: Floats) -> Floats:

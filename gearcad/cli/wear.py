@@ -23,7 +23,7 @@ _SHOWN = 8
 @spec_argument
 @output_option
 @click.option("--loss", type=float, metavar="UM", help="Depth (µm) at which the wear ends.  [default: 0.1 m_n]")
-@click.option("--steps", type=int, default=20, show_default=True, metavar="N", help="Steps until then, at the least.")
+@click.option("--steps", type=int, default=50, show_default=True, metavar="N", help="Steps until then, at the least.")
 @click.option("--positions", type=int, default=30, show_default=True, metavar="N", help="Over one base pitch.")
 @json_option
 @quiet_option

@@ -31,7 +31,7 @@ class Wear(ReportedJob[PairDesign, WearResult]):
     why = "a single gear has nothing to wear against"
 
     loss: float | None = None
-    steps: int = 20
+    steps: int = 50
     positions: int = 30
 
     @one_thread()
@@ -67,7 +67,7 @@ def wear(
     load: Load | None = None,
     *,
     loss: float | None = None,
-    steps: int = 20,
+    steps: int = 50,
     positions: int = 30,
     progress: Progress | None = None,
     **inputs: Unpack[Inputs],

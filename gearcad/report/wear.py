@@ -27,6 +27,7 @@ def wear_html(result: WearResult, head: Mapping[str, str] | None = None) -> str:
         head,
         of=result,
         names=[role.value for role in Role],
+        worn=[role.value for role in _worn(result)],
         pair_picture=pair_picture(task.pair),
         rows=_rows(result),
         figures=_figures(result),
@@ -38,14 +39,19 @@ def wear_html(result: WearResult, head: Mapping[str, str] | None = None) -> str:
 
 
 def _rows(result: WearResult) -> list[tuple[str, ...]]:
-    """Return each state: load cycles, depths, mean depths, volumes of both gears, transmission error, contact ratio, roots."""
-    found = []
+    """Return each state: load cycles; depth, mean depth, volume of the gears that wear; transmission error, ratio, roots."""
+    found, worn = [], _worn(result)
     for state in result.states:
-        both = (*state.depth, *state.mean_depth, *state.volume)
+        both = [each.pick(role) for each in (state.depth, state.mean_depth, state.volume) for role in worn]
         found.append(
             tuple(map(short, (state.cycles, *both, state.transmission_error, state.contact_ratio, *state.root_stresses)))
         )
     return found
+
+
+def _worn(result: WearResult) -> list[Role]:
+    """Return the gears that wear."""
+    return [role for role, coefficient in result.coefficients.items() if coefficient]
 
 
 def _figures(result: WearResult) -> list[ReportFigure]:
@@ -56,8 +62,7 @@ def _figures(result: WearResult) -> list[ReportFigure]:
             picture_address(partial(plot_worn_profile, result, role), "svg"),
             "Depth along the normal of the involute. Flanks slide least near the pitch point: there the least is lost.",
         )
-        for role, coefficient in result.coefficients.items()
-        if coefficient
+        for role in _worn(result)
     ]
     for title, draw, caption in (
         ("Load share of a pair of teeth", plot_worn_share, "Wear takes most where load and sliding are great together."),
