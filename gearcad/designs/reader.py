@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Iterator, Mapping
+from difflib import get_close_matches
 from importlib import import_module
 from operator import itemgetter
 from pathlib import Path
@@ -148,7 +149,9 @@ def starter_text(kind: str) -> tuple[str, str]:
     matches = [asked] if asked in files else [name for name in files if name.startswith(asked)]
     if len(matches) != 1:
         named, short = ([name for name in names if not name.startswith("ci")] for names in (files, _ALIASES))  # designs
-        raise ParameterError("kind", kind, f"must be one of {', '.join(named)} (or {', '.join(short)})")
+        if near := matches or get_close_matches(kind, [*named, *short]):
+            raise ParameterError("kind", kind, f"must be a starter; did you mean {' or '.join(near)}?")
+        raise ParameterError("kind", kind, f"must be {', '.join(short)}, or one that `gearcad new` lists")
     path = files[matches[0]]
     return path.name, path.read_text(encoding="utf-8")
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import NamedTuple, TypeVar
 
-from gearcad.core.errors import ParameterError, format_number
+from gearcad.core.errors import GeometryError, ParameterError, format_number
 from gearcad.core.records import PerGear
 from gearcad.material import Grade, Material, MaterialGroup, MaterialQuality
 
@@ -34,7 +34,9 @@ class Family(Enum):
 
     @classmethod
     def of(cls, group: MaterialGroup) -> Family:
-        """Return the family of a group of materials."""
+        """Return the family of a group of materials. Raises GeometryError for a plastic."""
+        if group is MaterialGroup.PLASTIC:
+            raise GeometryError("material.group", group.value, "must be a metal: ISO 6336 has no factors of plastics")
         return _FAMILIES[group]
 
 

@@ -198,7 +198,7 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
     table = folder / "table.csv"
     assert summary.errors == (
         f"{table} row 3 (idle): load.torque is missing: must be given, in N·m on the pinion: stiffness depends on it",
-        f"{table} row 4 (alone): kind = 'gear': must be a pair: a single gear has no mesh",
+        f"{table} row 4 (alone): kind = 'gear': must be a pair or a rack and pinion: a single gear has no mesh",
     )
     return folder / "out"
 

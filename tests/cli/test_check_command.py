@@ -123,7 +123,7 @@ def test_limits_that_are_passed_over_are_exit_status_1_and_json_is_one_document(
         ),
         (
             SPUR.replace("positions = 12", 'model = "4d"'),
-            'pair.toml line 15: check.model = \'4d\': must be "2d", "3d" or "auto"',
+            'pair.toml line 15: check.model = \'4d\': must be "2d", "3d", "section" or "auto"',
         ),
         (
             SPUR.replace("positions = 12", 'model = "2d"').replace("[pair]", "[pair]\nhelix_angle = 12.0"),
@@ -144,7 +144,7 @@ def test_limits_that_are_passed_over_are_exit_status_1_and_json_is_one_document(
         ),
         (
             "[gear]\nteeth = 20\nnormal_module = 2.0\nface_width = 20.0\n",
-            "kind = 'gear': must be a pair: a single gear has nothing to press against",
+            "kind = 'gear': must be a pair or a rack and pinion: a single gear has nothing to press against",
         ),
     ],
 )

@@ -85,8 +85,10 @@ def test_new_refuses_to_overwrite_unless_forced() -> None:
 def test_new_refuses_what_it_does_not_have() -> None:
     result = run("new", "bevel", status=2)
     assert (
-        result.stderr == f"Error: kind = 'bevel': must be one of {', '.join(NAMED)} (or gear, pair, ring, planetary, uhlir)\n"
+        result.stderr == "Error: kind = 'bevel': must be gear, pair, ring, planetary, uhlir, or one that `gearcad new` lists\n"
     )
+    result = run("new", "planetry-alm", status=2)
+    assert result.stderr.startswith("Error: kind = 'planetry-alm': must be a starter; did you mean planetary-alm or ")
 
 
 @pytest.mark.parametrize("output", ["blocked/x.toml", "folder"])

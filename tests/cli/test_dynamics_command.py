@@ -265,7 +265,7 @@ def test_the_simple_model_of_the_thesis(here: Path) -> None:
         (PAIR.replace("speeds = 40", "zone = 'two pairs'"), "line 17: dynamics.zone = 'two pairs': must be one of"),
         (TRAIN.replace("speeds = 160", "zone = 'one pair'"), "dynamics.zone: unknown key"),
         (PAIR.replace("torque = 50.0", "torque = 0.0"), "load.torque = 0: must be given"),
-        ("[gear]\nteeth = 20\nnormal_module = 2.0\nface_width = 10.0\n", "must be a pair or a train"),
+        ("[gear]\nteeth = 20\nnormal_module = 2.0\nface_width = 10.0\n", "must be a pair, a rack and pinion or a train"),
         (PAIR.replace("potential-energy", "iso6336"), "line 16: dynamics.stiffness = 'iso6336': must be one of"),
         (PAIR.replace("speeds = 40", "damping_ratio = -0.1"), "line 17: dynamics.damping_ratio = -0.1: must be"),
         (PAIR.replace("speeds = 40", "pinion_inertia = 0.0"), "line 17: dynamics.pinion_inertia = 0 kg·m²: must be"),
@@ -306,9 +306,10 @@ def test_what_makes_no_dynamics(here: Path, text: str, message: str) -> None:
 @pytest.mark.parametrize("command", ["build", "check", "stiffness", "modify"])
 def test_other_commands_send_a_train_here(here: Path, command: str) -> None:
     result = run(command, spec(TRAIN), status=2)
-    permitted = (
-        "a gear, a pair, a rack, a rack and pinion, a planetary train, a spline or a shaft" if command == "build" else "a pair"
-    )
+    permitted = {
+        "build": "a gear, a pair, a rack, a rack and pinion, a planetary train, a spline or a shaft",
+        "modify": "a pair",
+    }.get(command, "a pair or a rack and pinion")
     said = f"Error: kind = 'train': must be {permitted}: a train is for `gearcad dynamics` and `gearcad data`\n"
     assert result.stderr == said
 

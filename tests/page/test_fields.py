@@ -34,7 +34,9 @@ def test_every_key_that_is_given_has_a_field(name: str) -> None:
     bench = _bench(name)
     fields = _fields(bench)
     assert not given_texts(bench.tables).keys() - fields.keys()
-    assert len(used_texts(bench.design, bench.tables).keys() & fields.keys()) > len(fields) / 4
+    assert (
+        len(used_texts(bench.design, bench.tables).keys() & fields.keys()) > len(fields) / 5
+    )  # the others are keys of what a design may have
 
 
 def test_what_is_used_is_shared_derived_or_by_default() -> None:

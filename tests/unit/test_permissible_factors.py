@@ -36,13 +36,14 @@ from gearcad.rating.factors import (
 from gearcad.rating.material_limits import endurance_limits, endurance_limits_of, hardness_scale
 
 G = MaterialGroup
+METALS = [group for group in G if group is not G.PLASTIC]
 EXACT = 1e-12
 """Relative: the same number by two ways."""
 
 CYCLES = np.logspace(1, 12, 331)
 ALL_POINTS = [
-    *(flank_points(group, pitting=pitting) for group in G for pitting in (False, True)),
-    *(root_points(group, long_life=0.92) for group in G),
+    *(flank_points(group, pitting=pitting) for group in METALS for pitting in (False, True)),
+    *(root_points(group, long_life=0.92) for group in METALS),
 ]
 
 
@@ -65,7 +66,7 @@ def test_life_factors_are_straight_in_log_log() -> None:
         inside = (points[0][0] < CYCLES) & (points[-1][0] > CYCLES)
         assert back[inside] == pytest.approx(CYCLES[inside], rel=1e-9)
         assert np.all(back[points[-1][0] <= CYCLES] == math.inf)
-    for group in G:
+    for group in METALS:
         for pitting in (False, True):
             x, y = np.log10(flank_points(group, pitting=pitting)).T
             found = flank_life_factor(CYCLES, group, pitting=pitting)
@@ -194,7 +195,7 @@ def test_rough_fillets_are_weaker() -> None:
 
 def test_notch_sensitivity() -> None:
     """1 at q_s = 2.5 whatever the material; falls or rises with strength on either side of it; stays beyond the table."""
-    for group in G:
+    for group in METALS:
         assert notch_sensitivity_factor(2.5, group, 450.0) == pytest.approx(1, rel=EXACT)
     assert notch_sensitivity_factor(4.0, G.NITRIDED) == pytest.approx((1 + math.sqrt(0.1809)) / (1 + math.sqrt(0.1206)))
     strengths = np.linspace(400, 1100, 71)
@@ -215,7 +216,7 @@ def test_notch_sensitivity() -> None:
 
 def test_static_notch_sensitivity() -> None:
     """1 at Y_S = 2 whatever the material."""
-    for group in G:
+    for group in METALS:
         assert static_notch_sensitivity_factor(2.0, group, 500.0) == pytest.approx(1, rel=EXACT)
     at_3 = {"Eh": 1.44, "NT": 1.2, "St (cast)": 1.07, "V (cast)": 1.07, "GG": 1}
     at_3["St"] = (1 + 0.93 * 2) / 1.93  # at 200 MPa
@@ -252,7 +253,7 @@ def test_numbers_give_numbers_and_arrays_broadcast() -> None:
     assert math.isnan(root_life_factor(math.nan, G.NITRIDED))
 
 
-GRADES = [Grade(group, quality) for group in MaterialGroup for quality in MaterialQuality]
+GRADES = [Grade(group, quality) for group in METALS for quality in MaterialQuality]
 
 # Coefficients worked out by hand at the ends of ranges (ISO 6336-5:2016, table 1); Eh MQ and NT MQ are printed by themselves.
 TABLE = [
@@ -319,6 +320,11 @@ def test_lines_hold_over_their_ranges_and_no_further(row: str) -> None:
                 endurance_limits(Material(name=name, hardness=hardness))
 
 
+def test_a_plastic_has_no_factors_of_metals() -> None:
+    with pytest.raises(GeometryError, match=r"^material\.group = 'plastic': must be a metal"):
+        flank_points(G.PLASTIC)
+
+
 def test_names_stand_for_grades() -> None:
     assert [grade_of(str(grade)) for grade in GRADES] == GRADES
     assert [grade_of(name) for name in ("steel", "Eh", "eh MQ", "Eh MX", "EhMQ", "MQ Eh", "18CrNiMo7-6 Eh MQ")] == [None] * 7
@@ -330,7 +336,7 @@ def test_names_stand_for_grades() -> None:
 
 def test_better_quality_endures_no_less() -> None:
     """At hardnesses that all qualities of a group know."""
-    for group in MaterialGroup:
+    for group in METALS:
         for hardness in range(100, 900, 5):
             found = []
             for quality in MaterialQuality:

@@ -287,6 +287,7 @@ def test_what_is_said_and_refused_of_racks() -> None:
     with pytest.raises(ValueError, match=r"^load\.torque is missing: must be given"):
         rack_rate(_pair())
     with pytest.raises(
-        ValueError, match=r"^mounting = .*: is not an input of a rack and pinion; permitted: material, load, rating"
+        ValueError,
+        match=r"^mounting = .*: is not an input of a rack and pinion; permitted: material, load, check, mesh, dynamics, rating",
     ):
         rack_rate(_pair(), RACK_LOAD, mounting=None)

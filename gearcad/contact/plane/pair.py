@@ -355,6 +355,8 @@ def _contact_pair(
 ) -> ContactPair:
     turns = tip.turns if tip else AS_PLACED
     low, high = overlap(line, pinion_length, turns)
+    if tip and not low < high:  # a load far beyond elasticity moves the flanks past each other
+        return _contact_pair(line, tooth, pinion_length, middle, span, cells, least_width)
     middle = min(max(middle, low), high)
     touching = line.lengths(pinion_length)
     radius = line.radius(pinion_length)
