@@ -260,7 +260,7 @@ def test_few_teeth_between_cuts_are_told(teeth: int, told: bool) -> None:
 def test_tip_relief_is_advised_only_where_there_is_none(relief: float, advice: str) -> None:
     pair = relieved(ReliefShape.LINEAR, tip_relief=relief, tip_relief_length=4.0)
     parts = (
-        SimpleNamespace(pair=pair, gears=dict(pair.gears.items())),
+        SimpleNamespace(pair=pair, gears=dict(pair.gears.items()), rating=SimpleNamespace(names=PerGear("pinion", "wheel"))),
         SimpleNamespace(positions=range(24), tip_positions=lambda _role: 2),
         SimpleNamespace(corner_positions=4),
     )
