@@ -99,6 +99,7 @@ def pair() -> GearPair:
     return GearPair(pinion=pinion, wheel=wheel)
 
 
+@pytest.mark.long
 def test_only_the_coarse_mesh_is_at_fault(document: dict) -> None:
     assert document["model"] == "3d"
     failed = [each["quantity"] for each in document["comparisons"] if each["role"] == "gate" and not each["passed"]]

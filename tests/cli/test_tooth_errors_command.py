@@ -63,6 +63,7 @@ def study() -> TrainStudy:
     return study_train(replace(one_stage("modes"), speed=6764.0), options(error_samples=12))
 
 
+@pytest.mark.long
 def test_documents_and_tables_are_the_samples(here: Path) -> None:
     result = run(FIGURE_5 + "error_samples = 4\nspeeds = 3\n")
     assert result.exit_code == 0, result.output

@@ -106,6 +106,7 @@ def test_gear_in_a_body_of_part_design(tmp_path):
     assert found["31"]["gear"] / found["20"]["gear"] > 2.0
 
 
+@pytest.mark.long
 def test_data_sheet_and_drawing(tmp_path):
     found = run_freecad(tmp_path, {}, "documents")["documents"]
     pair, gear = found["Pair"], found["Gear"]

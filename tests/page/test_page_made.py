@@ -74,6 +74,7 @@ def test_what_designs_differ_by() -> None:
     assert moved == ["pair.centre_distance 4 → 4.05", "pinion.teeth - → 20"]
 
 
+@pytest.mark.long
 def test_a_report_is_fenced_in(runs: Runs, client: Callable[[str], Any]) -> None:
     answer = client(f"/made/{runs.key}/0/rate.html")
     assert answer.status_code == 200 and "<h1>reducer-21-43" in answer.text

@@ -161,6 +161,7 @@ def test_a_plane_cycle_is_exact_whatever_its_positions(torque: float, relief: fl
     assert len(cycle.positions) == 17 and cycle.values("stiffness").shape == (17,)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("name", "torque"), [pytest.param("FZG C", 302.0, marks=pytest.mark.long), ("helical", 12.0)])
 def test_a_solid_cycle_is_exact_too(name: str, torque: float) -> None:
     """Of the lightly loaded helical pair 24 even positions miss 7 % of the pressure and 15 % of the line load."""

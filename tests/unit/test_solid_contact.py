@@ -296,6 +296,7 @@ SAME_WIDTH = 1e-8
 """Relative: the half widths solve Hertz's equation for the loads that were found, within ten times the solver's own bound."""
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("count", [pytest.param(25, id="quick"), pytest.param(500, id="1,000 in all", marks=pytest.mark.long)])
 @pytest.mark.parametrize(("teeth", "mate", "helix", "bore"), UNSETTLED)
 def test_contact_settles_whatever_the_misalignment(teeth: int, mate: int, helix: float, bore: float, count: int) -> None:

@@ -226,6 +226,7 @@ def test_few_speeds_begin_with_flanks_apart() -> None:
         assert np.array(other) == pytest.approx(np.array(values[0]), rel=SAME_MOTION)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "damping_ratio", [pytest.param(0.005, marks=pytest.mark.long), 0.02, pytest.param(0.05, marks=pytest.mark.long)]
 )
