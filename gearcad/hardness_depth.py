@@ -54,7 +54,7 @@ def depth_points(parameter: str, given: Any, low: float, high: float, unit: str)
 
 
 @dataclass(frozen=True, kw_only=True)
-class DepthProfile:
+class HardnessProfile:
     """Hardness (HV) and residual stress (MPa) over the depth below a flank; `law` is "points" or "lang".
 
     `residual` are points, none for no residual stress; `deepest` (mm) is where the case has ended. `ratio` is the permissible
@@ -110,7 +110,7 @@ USUAL_RATIO = 0.4
 """K_tau (MPa/HV) of case-hardened steel, as remembered: unconfirmed."""
 
 
-def depth_profile_of(material: Material) -> DepthProfile | None:
+def depth_profile_of(material: Material) -> HardnessProfile | None:
     """Return the profile of a material; None if it has none. Raises ParameterError where a part of it is missing."""
     points = material.hardness_profile or ()
     if not points and material.case_depth is None:
@@ -122,7 +122,7 @@ def depth_profile_of(material: Material) -> DepthProfile | None:
             given = material.case_core_hardness
             raise ParameterError("material.case_core_hardness", given, f"must be given with case_depth, below {limit} HV")
         raise ParameterError("material.hardness", material.hardness, f"must be given with case_depth, above {limit} HV")
-    return DepthProfile(
+    return HardnessProfile(
         law="points" if points else "lang",
         points=points,
         surface=surface,

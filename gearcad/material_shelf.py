@@ -69,7 +69,7 @@ _SPELLINGS = {
 """Other spellings of units."""
 
 
-class Reading(NamedTuple):
+class SourcedValue(NamedTuple):
     """A value of a table and its source; None with the `reason` where the table has no such value."""
 
     value: float | None
@@ -119,7 +119,7 @@ class PropertyTable:
         reading = self.at(temperature, min((each.cycles for each in self.points if each.cycles is not None), default=None))
         return min(self.points, key=distance).value if reading.value is None else reading.value
 
-    def at(self, temperature: float | None, cycles: float | None = None) -> Reading:
+    def at(self, temperature: float | None, cycles: float | None = None) -> SourcedValue:
         """Return the value at a temperature (°C) and a number of load cycles; None stands for one that is not known."""
         temperatures = sorted({each.temperature for each in self.points if each.temperature is not None})
         if not temperatures:
@@ -132,12 +132,12 @@ class PropertyTable:
         ends = [each for each in temperatures if each == temperature] or _around(temperatures, temperature)
         readings = [self._along([each for each in self.points if each.temperature == end], cycles) for end in ends]
         missing = next((each for each in readings if each.value is None), None)
-        return missing or Reading(_between(ends, [each.value or 0.0 for each in readings], temperature), self.source)
+        return missing or SourcedValue(_between(ends, [each.value or 0.0 for each in readings], temperature), self.source)
 
-    def _along(self, points: Sequence[_Point], cycles: float | None) -> Reading:
+    def _along(self, points: Sequence[_Point], cycles: float | None) -> SourcedValue:
         """Return the value after so many load cycles, of points at one temperature."""
         if points[0].cycles is None:
-            return Reading(points[0].value, self.source)
+            return SourcedValue(points[0].value, self.source)
         if cycles is None:
             return self._missing(f"{self._named} goes by load cycles, which are not known")
         known = sorted((math.log(each.cycles), each.value) for each in points if each.cycles is not None)
@@ -149,14 +149,14 @@ class PropertyTable:
         values = dict(known)
         place = min(max(place, places[0]), places[-1])
         ends = [each for each in places if each == place] or _around(places, place)
-        return Reading(_between(ends, [values[each] for each in ends], place), self.source)
+        return SourcedValue(_between(ends, [values[each] for each in ends], place), self.source)
 
     @property
     def _named(self) -> str:
         return f"{self.quantity} of {self.name} in {FILE}"
 
-    def _missing(self, reason: str) -> Reading:
-        return Reading(None, self.source, reason)
+    def _missing(self, reason: str) -> SourcedValue:
+        return SourcedValue(None, self.source, reason)
 
 
 def _is_known(source: str) -> bool:

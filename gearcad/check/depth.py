@@ -17,7 +17,7 @@ from gearcad.contact.plane.cycle import PlaneCycle, PlanePairContact, strip_stre
 from gearcad.contact.shared.loaded import Cycle
 from gearcad.contact.solid.cycle import SolidCycle
 from gearcad.core.records import Floats, JsonObject, Notice, Role, freeze
-from gearcad.hardness_depth import DepthProfile, depth_profile_of
+from gearcad.hardness_depth import HardnessProfile, depth_profile_of
 from gearcad.rating.subsurface import PlaneStresses, below_line_contact, largest_shear
 
 _DEPTHS, _PLACES, _ACROSS = 90, 60, 31
@@ -45,7 +45,7 @@ class MaterialExposure:
     """
 
     role: Role
-    profile: DepthProfile
+    profile: HardnessProfile
     places: Floats
     depths: Floats
     exposure: Floats
@@ -132,7 +132,7 @@ def _contacts(cycle: Cycle, role: Role) -> Iterator[_Contact]:
                     yield _Contact(float(length), float(pressure), float(width), float(height))
 
 
-def exposure_of(role: Role, profile: DepthProfile, contacts: list[_Contact], poisson_ratio: float) -> MaterialExposure:
+def exposure_of(role: Role, profile: HardnessProfile, contacts: list[_Contact], poisson_ratio: float) -> MaterialExposure:
     """Return the exposure of a flank by the contacts that pass it."""
     widest = max(contact.half_width for contact in contacts)
     depths = max(_HALF_WIDTHS * widest, 1.2 * profile.deepest) * np.linspace(_FIRST**0.5, 1.0, _DEPTHS) ** 2
@@ -170,7 +170,7 @@ def exposure_of(role: Role, profile: DepthProfile, contacts: list[_Contact], poi
     )
 
 
-def _line_contact(profile: DepthProfile, contact: _Contact, poisson_ratio: float) -> tuple[float, float]:
+def _line_contact(profile: HardnessProfile, contact: _Contact, poisson_ratio: float) -> tuple[float, float]:
     """Return the greatest exposure below a line contact, from its half width down, plus C_1, and its depth (mm)."""
     z = np.linspace(1.0, max(10.0, 1.2 * profile.deepest / contact.half_width), 2000)
     stresses = below_line_contact(np.zeros_like(z), z)

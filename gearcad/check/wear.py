@@ -13,7 +13,7 @@ from gearcad.check.run import plane_model
 from gearcad.check.task import CheckTask
 from gearcad.contact.plane.cycle import PlaneCycle
 from gearcad.contact.plane.pair import PlanePair
-from gearcad.contact.plane.wear import CycleWear, FlankGrid, cycle_wear, flank_grids, worn_pair
+from gearcad.contact.plane.wear import CycleWear, WearGrid, cycle_wear, flank_grids, worn_pair
 from gearcad.core.errors import GeometryError, ParameterError, SolverError, require_whole
 from gearcad.core.quantities import Range, inputs_document
 from gearcad.core.records import Floats, JsonObject, Notice, PerGear, Role, texts
@@ -116,7 +116,7 @@ class WearResult:
     task: CheckTask
     options: WearOptions
     coefficients: PerGear[float]
-    grids: PerGear[FlankGrid]
+    grids: PerGear[WearGrid]
     states: tuple[WornState, ...]
     asked_cycles: float | None
     guideline: dict[str, float]
@@ -299,7 +299,7 @@ class _Run:
     task: CheckTask
     options: WearOptions
     model: PlanePair
-    grids: PerGear[FlankGrid]
+    grids: PerGear[WearGrid]
     coefficients: PerGear[float]
 
     @property

@@ -175,7 +175,7 @@ class SectorsPlan(WheelPlan):
 
 
 @dataclass(frozen=True, kw_only=True)
-class RackPlan(GearPlan):
+class RackSectionPlan(GearPlan):
     """A strip of so many `teeth` of a rack, in triangles; short edges where they touch others."""
 
     gear: Rack
@@ -319,7 +319,7 @@ def replace_zones(plan: GearPlan, zones: Mapping[int, ContactRefinement]) -> Gea
     """Return a gear that is fine where it touches: in zones, or on the whole teeth of a part."""
     if isinstance(plan, PartPlan):
         return replace(plan, refined_teeth=(*plan.refined_teeth, *zones))
-    if isinstance(plan, RackPlan):
+    if isinstance(plan, RackSectionPlan):
         return replace(plan, contacts=zones)
     assert isinstance(plan, SectorsPlan)
     return replace(plan, contacts=zones)
@@ -352,7 +352,7 @@ def plan_rack_mesh(options: MeshOptions, pair: RackPair) -> MeshPlan:
     own = extent.teeth if extent.teeth is not None and extent.teeth < pair.pinion.teeth else None
     radius = held_radius(pair.pinion)
     pinion = SectorsPlan(gear=pair.pinion, element=Element.TRI6, teeth=own, held_radius=radius, sizes=sizes)
-    plans = {"pinion": pinion, "rack": RackPlan(gear=pair.rack, teeth=teeth, sizes=sizes)}
+    plans = {"pinion": pinion, "rack": RackSectionPlan(gear=pair.rack, teeth=teeth, sizes=sizes)}
     return MeshPlan(plans, pair if extent.what is What.PAIR else None, extent, Element.TRI6, options)
 
 

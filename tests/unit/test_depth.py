@@ -7,7 +7,7 @@ from gearcad.check.depth import C_1, MaterialExposure, _Contact, exposure_of
 from gearcad.contact.plane.cycle import strip_stresses
 from gearcad.core.errors import ParameterError
 from gearcad.core.records import Role
-from gearcad.hardness_depth import DepthProfile, depth_points, depth_profile_of
+from gearcad.hardness_depth import HardnessProfile, depth_points, depth_profile_of
 from gearcad.material import Material
 from gearcad.rating.subsurface import PlaneStresses, below_line_contact, largest_shear
 
@@ -60,13 +60,13 @@ def test_forces_balance_at_any_depth() -> None:
         assert -np.trapezoid(down, x) == pytest.approx(np.pi / 2, rel=1e-6)
 
 
-def even(hardness: float, scale: float = 1.0, **others: object) -> DepthProfile:
+def even(hardness: float, scale: float = 1.0, **others: object) -> HardnessProfile:
     values: dict[str, object] = {"points": ((0.0, hardness), (2.0 * scale, hardness)), "residual": ()}
     values |= {"law": "points", "surface": 0.0, "core": 0.0, "case_depth": 0.0, "ratio": 0.4, "assumed": True}
-    return DepthProfile(**(values | others))
+    return HardnessProfile(**(values | others))
 
 
-def passing(profile: DepthProfile, scale: float = 1.0) -> MaterialExposure:
+def passing(profile: HardnessProfile, scale: float = 1.0) -> MaterialExposure:
     contacts = [_Contact(place * scale, 1200.0, 0.2 * scale, None) for place in (8.0, 9.0, 10.0)]
     return exposure_of(Role.PINION, profile, contacts, 0.3)
 

@@ -27,7 +27,7 @@ _SWEEP = (np.arange(5) + 0.5) / 5 - 0.5
 
 
 @dataclass(frozen=True)
-class FlankGrid:
+class WearGrid:
     """Cubic splines over the roll lengths (mm) of a flank, from `first` to `last`, between so many `spans`."""
 
     first: float
@@ -66,7 +66,7 @@ class FlankGrid:
 class WornFlank(TransverseFlank):
     """A flank that has lost some depth (mm), as coefficients (n,) of the splines of its `grid`, behind its own form."""
 
-    grid: FlankGrid
+    grid: WearGrid
     worn: Floats
 
     @cached_property
@@ -90,7 +90,7 @@ class WornLine(LineOfAction):
         return False
 
 
-def worn_pair(model: PlanePair, grids: PerGear[FlankGrid], worn: PerGear[Floats]) -> PlanePair:
+def worn_pair(model: PlanePair, grids: PerGear[WearGrid], worn: PerGear[Floats]) -> PlanePair:
     """Return the same bodies with flanks that have lost `worn` (mm), coefficients of their grids; the bodies stay as stiff."""
     line = model.line
     flanks = PerGear.each(
@@ -100,13 +100,13 @@ def worn_pair(model: PlanePair, grids: PerGear[FlankGrid], worn: PerGear[Floats]
     return replace(model, line=made, known=KnownContacts())
 
 
-def flank_grids(model: PlanePair, spans: int) -> PerGear[FlankGrid]:
+def flank_grids(model: PlanePair, spans: int) -> PerGear[WearGrid]:
     """Return the grids of both flanks of a pair."""
     return PerGear.each(lambda role: _grid(model.line.flanks.pick(role), spans))
 
 
-def _grid(flank: TransverseFlank, spans: int) -> FlankGrid:
-    return FlankGrid(flank.first, flank.last, flank.base_radius, spans)
+def _grid(flank: TransverseFlank, spans: int) -> WearGrid:
+    return WearGrid(flank.first, flank.last, flank.base_radius, spans)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -124,7 +124,7 @@ class CycleWear:
         freeze(self)
 
 
-def cycle_wear(cycle: PlaneCycle, grids: PerGear[FlankGrid]) -> CycleWear:
+def cycle_wear(cycle: PlaneCycle, grids: PerGear[WearGrid]) -> CycleWear:
     """Return what the even positions of a cycle take off both flanks; each stands for the turn from one to the next."""
     pair = cycle.model.gear_pair
     step = 2 * math.pi / pair.pinion.teeth / len(cycle.positions)

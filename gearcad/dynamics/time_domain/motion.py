@@ -317,7 +317,7 @@ def _long_error(mesh: MeshExcitation, sense: float) -> tuple[Floats, int]:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Ripple:
+class TorqueRipple:
     """Torque on one inertia beside that at rest: Re sum (`amplitude` e^(i 2 pi `order` turns)) of the common period, in N·m.
 
     `felt` (n,) is what the coordinates of a System feel of 1 N·m; `order` (h,) are whole numbers.
@@ -343,18 +343,18 @@ _PER_RIPPLE, _LONGEST_RIPPLE = 2048, 2**20
 """Samples over the quickest wave of a torque - straight lines between them are off by a millionth - and greatest number."""
 
 
-def ripples_of(system: System, excitation: Excitation) -> tuple[Ripple, ...]:
+def ripples_of(system: System, excitation: Excitation) -> tuple[TorqueRipple, ...]:
     """Return the torques of an excitation on the inertias of a System, one for each of these."""
     names, found = system.names[1], []
     for name in dict.fromkeys(each.inertia for each in excitation.torques):
         own = [(q, each) for q, each in zip(excitation.torque_orders, excitation.torques, strict=True) if each.inertia == name]
         if name in names:
             order, amplitude = np.array([q for q, _ in own], np.int64), np.array([2 * each.coefficient for _, each in own])
-            found.append(Ripple(felt=system.inertias[:, names.index(name)], order=order, amplitude=amplitude))
+            found.append(TorqueRipple(felt=system.inertias[:, names.index(name)], order=order, amplitude=amplitude))
     return tuple(found)
 
 
-def _samples_of(ripples: tuple[Ripple, ...]) -> Floats:
+def _samples_of(ripples: tuple[TorqueRipple, ...]) -> Floats:
     """Return the samples (e, k) of torques, as many as the quickest wave of all asks for."""
     if not ripples:
         return np.zeros((0, 1))
@@ -437,7 +437,7 @@ class MovingSystem:
     laws: tuple[MeshLaw, ...]
     senses: Floats
     driven: Floats
-    ripples: tuple[Ripple, ...] = ()
+    ripples: tuple[TorqueRipple, ...] = ()
 
     @classmethod
     def lumped(cls, system: System, excitation: Excitation, *, driven: Floats | None = None) -> MovingSystem:

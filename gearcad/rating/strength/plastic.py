@@ -13,7 +13,7 @@ from gearcad.core.records import JsonObject, Notice, PerGear, Role, Verdict, is_
 from gearcad.geometry import GearPair
 from gearcad.load import Load, ToothLubrication
 from gearcad.material import Material, TabledNumber
-from gearcad.material_shelf import FILE, PropertyTable, Reading, properties_of
+from gearcad.material_shelf import FILE, PropertyTable, SourcedValue, properties_of
 from gearcad.rating.contact_stress import elasticity_factor
 from gearcad.rating.options import RatingOptions
 from gearcad.rating.plastic_formulas import (
@@ -154,15 +154,15 @@ class PlasticRating:
     def _tables(self) -> PerGear[Mapping[str, PropertyTable]]:
         return self.materials.map(lambda each: properties_of(each.name) if each.plastic else {})
 
-    def reading(self, role: Role, quantity: str, temperature: float | None) -> Reading:
+    def reading(self, role: Role, quantity: str, temperature: float | None) -> SourcedValue:
         """Return a property of a gear's material at a temperature (°C) and the gear's load cycles; a spec counts first."""
         material, tables = self.materials.pick(role), self._tables.pick(role)
         given = getattr(material, quantity, None)
         if given is not None and not (isinstance(given, TabledNumber) and quantity in tables):
-            return Reading(given, "given")
+            return SourcedValue(given, "given")
         if quantity in tables:
             return tables[quantity].at(temperature, self.cycles.pick(role))
-        return Reading(
+        return SourcedValue(
             None, "", f"{quantity} of {shown(str(material.name), 60)} is not known: give it, or rows of it in {FILE}"
         )
 
@@ -196,19 +196,19 @@ class PlasticRating:
             duty=1.0 if load.duty is None else load.duty,
         )
 
-    def _friction(self, temperature: float | None) -> Reading:
+    def _friction(self, temperature: float | None) -> SourcedValue:
         """Return the coefficient of friction: given, of the table of a plastic, or the usual one of the lubrication."""
         if self.options.friction is not None:
-            return Reading(self.options.friction, "given")
+            return SourcedValue(self.options.friction, "given")
         for role in self.plastic_roles:
             if "friction" in self._tables.pick(role):
                 return self.reading(role, "friction", temperature)
         if self.load.lubrication is None:
-            return Reading(None, "", "the coefficient of friction is not known: give rating.friction, or load.lubrication")
+            return SourcedValue(None, "", "the coefficient of friction is not known: give rating.friction, or load.lubrication")
         if (usual := usual_friction(self.materials, self.load.lubrication)) is None:
             names = " and ".join(str(each.name) for each in self.materials)
-            return Reading(None, "", f"the friction of {names}, dry, is not known: give rating.friction")
-        return Reading(usual, "VDI 2736-2" if self.load.lubrication is ToothLubrication.OIL else "recalled")
+            return SourcedValue(None, "", f"the friction of {names}, dry, is not known: give rating.friction")
+        return SourcedValue(usual, "VDI 2736-2" if self.load.lubrication is ToothLubrication.OIL else "recalled")
 
     @cached_property
     def _found(self) -> tuple[Temperatures | None, str]:
@@ -249,7 +249,7 @@ class PlasticRating:
     # ------------------------------------------------------------------ stresses
 
     @cached_property
-    def flank_stress(self) -> Reading:
+    def flank_stress(self) -> SourcedValue:
         """sigma_H (MPa): Z_E of both moduli at the temperature of the flanks."""
         moduli = PerGear.each(lambda role: self.reading(role, "youngs_modulus", self._flank_temperature))
         for each in moduli:
@@ -259,7 +259,7 @@ class PlasticRating:
         z_e = elasticity_factor((moduli.pinion.value or 0.0, moduli.wheel.value or 0.0), (ratios.pinion, ratios.wheel))
         u, pinion = self.pair.gear_ratio, self.pair.pinion
         per_area = self.load_factor * self.tangential_force / (pinion.reference_diameter * self.pair.common_width.width)
-        return Reading(z_e * math.prod(self.geometry.contact_factors) * math.sqrt(per_area * (u + 1) / u))
+        return SourcedValue(z_e * math.prod(self.geometry.contact_factors) * math.sqrt(per_area * (u + 1) / u))
 
     @cached_property
     def nominal_root_stresses(self) -> PerGear[float]:
@@ -272,10 +272,10 @@ class PlasticRating:
         """sigma_F (MPa) of both gears: K_F sigma_F0."""
         return self.nominal_root_stresses.map(lambda stress: stress * self.load_factor)
 
-    def limit(self, part: RatedPart, role: Role) -> Reading:
+    def limit(self, part: RatedPart, role: Role) -> SourcedValue:
         """Return sigma_HlimN or sigma_FlimN (MPa) of a gear at the temperature of the part, after its load cycles."""
         if self.options.bins:
-            return Reading(None, "", "a load spectrum is not rated for gears of plastic")
+            return SourcedValue(None, "", "a load spectrum is not rated for gears of plastic")
         if part is RatedPart.FLANK:
             return self.reading(role, "contact_endurance_limit", self._flank_temperature)
         return self.reading(role, "root_endurance_limit", self._root_temperature)
@@ -343,7 +343,7 @@ class PlasticRating:
         return PlasticProof(worn, permitted, recalled=coefficient.recalled)
 
     @cached_property
-    def deformation(self) -> Reading:
+    def deformation(self) -> SourcedValue:
         """lambda (mm), the deformation of a pair of teeth, with the moduli at the temperature of the roots."""
         moduli = PerGear.each(lambda role: self.reading(role, "youngs_modulus", self._root_temperature))
         for each in moduli:
@@ -351,7 +351,7 @@ class PlasticRating:
                 return each
         known = moduli.map(lambda each: each.value or 0.0)
         width, helix = self.pair.common_width.width, self.pair.pinion.helix_angle
-        return Reading(tooth_deformation(self.tangential_force, width, helix, known))
+        return SourcedValue(tooth_deformation(self.tangential_force, width, helix, known))
 
     def static(self, role: Role) -> PlasticProof:
         """Return the static root stress (MPa) of a gear under K_A, and what is permitted: 2 sigma_S/S_Smin."""
