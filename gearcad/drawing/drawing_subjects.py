@@ -105,8 +105,9 @@ def material_text(drawn: DrawnGear, options: DrawingOptions, words: SheetWords) 
         return ""
     if not is_assumed(material.name) and material.name != _STEEL and grade_of(material.name) is None:
         return material.name
-    if material.group in _IRON:
-        return words[f"data.group_{material.group.name.lower()}"]
+    group = material.group
+    if group is not None and (group in _IRON or (material.plastic and is_assumed(material.name))):
+        return words[f"data.group_{group.name.lower()}"]
     unknown = material.group is None and is_assumed(material.name)
     return f"{words['data.steel']} ({words['data.assumed']})" if unknown else words["data.steel"]
 
@@ -124,7 +125,7 @@ def treatment_text(drawn: DrawnGear, options: DrawingOptions, words: SheetWords)
 
 def _of_group(material: Material, words: SheetWords) -> str:
     group = material.group
-    treated = "" if group is None else words[f"data.group_{group.name.lower()}"]
+    treated = "" if group is None or material.plastic else words[f"data.group_{group.name.lower()}"]
     if material.hardness is None:
         return treated
     scale = "HBW" if group in _BRINELL else "HV"

@@ -226,6 +226,16 @@ def test_materials_are_named_in_every_language(language):
     assert len(said) >= len(MaterialGroup) - 3  # wrought and carbon steels, cast or not, are treated alike
 
 
+def test_a_plastic_is_called_by_its_name_or_its_group_and_has_no_treatment():
+    gear = Gear(teeth=20, normal_module=2, face_width=10)
+    for name, said in ({"name": "POM"}, "POM"), ({}, "Kunststoff"):
+        plastic = Material(group=MaterialGroup.PLASTIC, youngs_modulus=3000.0, **name)
+        rows = {
+            row.key: row.text for row in gear_rows(DrawnGear(role="gear", gear=gear, material=plastic), WORDS[Language.GERMAN])
+        }
+        assert rows["material"] == said and "heat_treatment" not in rows
+
+
 def test_names_that_nobody_gave_are_words_and_small_modules_are_said_in_them():
     rows = {row.key: row.text for row in gear_rows(replace(DRAWN[1], material=Material()), WORDS[Language.SWEDISH])}
     assert (rows["mate"], rows["material"]) == ("17 / Pinjong", "stål (antagen)")
