@@ -76,6 +76,8 @@ class CheckOptions:
     root stress, stiffness, and load and stress along the lines of contact may be from ISO 6336. `plane` is "strain" (wide
     gears) or "stress": of the plane model only, as `contact_band` is of the solid one. `friction` is the coefficient of
     friction of the flanks, or its law: "flash", "integral" or "niemann"; None for none.
+    `film` "on" asks for temperatures and the oil film along the path of contact; `pressure_viscosity` is alpha_38 of the oil
+    (1/GPa), `permissible_film` lambda_GFP.
     """
 
     model: Annotated[str, _MODELS, Words("model: plane (2d), solid bodies (3d) or section")] = _AUTO
@@ -99,6 +101,13 @@ class CheckOptions:
     friction: Annotated[float | FrictionLaw | None, FRICTION, Words("friction of the flanks, or its law", "µ"), WHEN_GIVEN] = (
         None
     )
+    film: Annotated[str | None, Choice(tuple(_SWITCH)), Words("temperature and oil film along the path"), WHEN_GIVEN] = None
+    pressure_viscosity: Annotated[
+        float | None, Range("1/GPa", 0.1, 100.0), Words("pressure viscosity of the oil at 38 °C", "α_38"), WHEN_GIVEN
+    ] = None
+    permissible_film: Annotated[
+        float | None, Range("", 1e-3, 100.0), Words("permissible specific film", "λ_GFP", "ISO/TS 6336-22"), WHEN_GIVEN
+    ] = None
 
     __repr__ = concise
 
@@ -109,6 +118,14 @@ class CheckOptions:
         if self.body_teeth and self.body_teeth % 2 == 0:
             raise ParameterError("body_teeth", self.body_teeth, "must be odd (the loaded tooth stands in the middle), or 0")
         object.__setattr__(self, "torques", tuple(map(float, self.torques)))
+        for name in ("pressure_viscosity", "permissible_film"):
+            if (given := getattr(self, name)) is not None and not self.asks_film:
+                raise ParameterError(name, given, 'must be left out without film = "on"')
+
+    @property
+    def asks_film(self) -> bool:
+        """Whether temperatures and the oil film are asked for."""
+        return self.film is not None and _SWITCH[self.film]
 
     def model_for(self, pair: GearPair | RackPair) -> Model:
         """Return the model of a pair. Raises GeometryError for helical gears in a plane, ParameterError for a solid rack."""

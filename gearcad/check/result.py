@@ -27,6 +27,7 @@ from gearcad.check.explanation import (
 )
 from gearcad.check.friction import MeshLosses
 from gearcad.check.notices import elastic_end
+from gearcad.check.oil_film import OilFilm
 from gearcad.check.on_shafts import LoadOnShafts
 from gearcad.check.options import CheckOptions, Model
 from gearcad.check.pictures import (
@@ -133,6 +134,7 @@ class CheckResult(Pictured, ABC):
     losses: MeshLosses | None = None
     plastic: PlasticCheck | None = None
     exposure: Mapping[Role, MaterialExposure] = field(default_factory=dict)
+    film: OilFilm | None = None
 
     model: ClassVar[Model]
 
@@ -371,6 +373,7 @@ def check_document(result: CheckResult) -> JsonObject:
         "extremes": {name: _extreme(of) for name, of in result.summary.extremes.items()},
         **({} if result.losses is None else {"friction": result.losses.to_dict()}),
         **({"depth": {role.value: of.to_dict() for role, of in result.exposure.items()}} if result.exposure else {}),
+        **({} if result.film is None else result.film.to_dict()),
         "torque_sweep": [point.to_dict() for point in result.sweep],
         "torque_trends": result.trends.to_dict(),
         "rating": result.rating.to_dict(),

@@ -12,6 +12,7 @@ from gearcad.check.depth import depth_notices, material_exposure
 from gearcad.check.friction import friction_notices, mesh_losses
 from gearcad.check.gates import compare_plane, compare_solid
 from gearcad.check.notices import common_notices
+from gearcad.check.oil_film import film_notices, oil_film
 from gearcad.check.on_shafts import load_on_shafts, shaft_notices
 from gearcad.check.options import Model
 from gearcad.check.pictures import tooth_stresses
@@ -145,7 +146,7 @@ def check_plane(task: CheckTask, tell: Agenda) -> PlaneCheck:
     model = plane_model(task)
     cycle = PlaneCycle.run(model, task.torque, task.options.positions_of(Model.PLANE)).searched(PLANE)
     summary = summarise_plane(cycle, model.single_stiffness(task.torque))
-    starts, exposure = relief_starts(cycle), material_exposure(task, cycle)
+    starts, exposure, film = relief_starts(cycle), material_exposure(task, cycle), oil_film(task, cycle)
     tell("convergence")
     convergence = three_meshes(_refined(task, cycle)) if task.options.refines else ()
     tell("torque sweep")
@@ -166,6 +167,7 @@ def check_plane(task: CheckTask, tell: Agenda) -> PlaneCheck:
         *start_notices(task, starts),
         *friction_notices(task),
         *depth_notices(exposure),
+        *film_notices(task, film),
     )
     return PlaneCheck(
         task=task,
@@ -179,6 +181,7 @@ def check_plane(task: CheckTask, tell: Agenda) -> PlaneCheck:
         losses=mesh_losses(task, cycle),
         plastic=plastic,
         exposure=exposure,
+        film=film,
     )
 
 
@@ -270,6 +273,7 @@ def check_solid(task: CheckTask, agenda: Agenda) -> SolidCheck:
     cycle = SolidCycle.run(model, task.torque, positions, agenda.counted(CYCLE, "position")).searched(SOLID)
     summary, stresses = summarise_solid(cycle, model.single_stiffness(task.torque)), tooth_stresses(cycle)
     starts, shafts, exposure = relief_starts(cycle), load_on_shafts(task, cycle), material_exposure(task, cycle)
+    film = oil_film(task, cycle)
     model.let_go()
     agenda(SWEEP)
     sweep = sweep_points(cycle, task.torques)
@@ -292,6 +296,7 @@ def check_solid(task: CheckTask, agenda: Agenda) -> SolidCheck:
         *shaft_notices(task),
         *friction_notices(task),
         *depth_notices(exposure),
+        *film_notices(task, film),
     )
     return SolidCheck(
         task=task,
@@ -307,6 +312,7 @@ def check_solid(task: CheckTask, agenda: Agenda) -> SolidCheck:
         losses=mesh_losses(task, cycle),
         plastic=plastic,
         exposure=exposure,
+        film=film,
     )
 
 

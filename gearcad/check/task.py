@@ -19,11 +19,12 @@ from gearcad.hardness_depth import depth_profile_of
 from gearcad.load import Load
 from gearcad.material import Material, Materials, TabledNumber, of_both
 from gearcad.mounting import Mounting, SupportCompliance
-from gearcad.rating.friction import mesh_friction
+from gearcad.rating.friction import mesh_friction, scuffing_of_check
 from gearcad.rating.load_factor_formulas import face_load_factor, helix_factors, root_face_load_factor, width_to_height
 from gearcad.rating.load_factors import BodyLoad, FaceLoadSource, deflection_of
 from gearcad.rating.nominal_rating import Rating, rate, rate_rack
 from gearcad.rating.options import RatingOptions
+from gearcad.rating.scuffing import Scuffing
 from gearcad.rating.strength import StrengthRating, rate_strength
 
 if TYPE_CHECKING:
@@ -130,6 +131,27 @@ class CheckTask:
         return mesh_friction(self.pair, self.materials, self.load, asked, self.rating_options)
 
     @cached_property
+    def scuffing(self) -> Scuffing | None:
+        """Temperatures by the standard, which those along the path go by; None where no oil film is asked for.
+
+        Raises ParameterError where there are none, or the oil is not known.
+        """
+        if not self.options.asks_film:
+            return None
+        if isinstance(self.pair, RackPair) or self.is_section or any(each.plastic for each in self.materials):
+            permitted = "must be left out for a rack, for sections of helical gears and for gears of plastic"
+            raise ParameterError("check.film", self.options.film, permitted)
+        if self.rating_options.oil_viscosity_40 is None:
+            raise ParameterError("rating.oil_viscosity_40", None, "must be given, in mm²/s at 40 °C, with check.film")
+        found = scuffing_of_check(self.pair, self.materials, self.load, self.rating_options)
+        if found.integral is None:
+            raise ParameterError("check.film", self.options.film, f"must be left out: {found.reason}")
+        if self.options.pressure_viscosity is None and found.oil.pressure_viscosity is None:
+            permitted = f"must be given, in 1/GPa, for an oil of type {found.oil.kind.value}"
+            raise ParameterError("check.pressure_viscosity", None, permitted)
+        return found
+
+    @cached_property
     def rating(self) -> Rating:
         """Rating by ISO 6336 or DIN 3990, Method B: nominal stresses with K_A."""
         if isinstance(self.pair, RackPair):
@@ -171,7 +193,7 @@ def check_task(
         shafts=shafts,
     )
     _require_meshing(task)
-    _ = task.friction
+    _ = task.friction, task.scuffing
     for each in task.materials:
         depth_profile_of(each)
     return _at_temperature(task)

@@ -87,7 +87,7 @@ def print_verdict(name: str, result: CheckResult) -> None:
     if console.width < _WIDE:
         rows = [_Line(row.cells[:-1], row.style) for row in rows]
     lines = [*_aligned(rows), (_WORDS + _LOCAL * bool(result.relief_starts), "")]
-    lines += [(line, "") for line in (*_losses(result), *_exposures(result))]
+    lines += [(line, "") for line in (*_losses(result), *_exposures(result), *_films(result))]
     lines += [(f"Not evaluated: {', '.join(quantities)}: {reason}", "yellow") for reason, quantities in _reasons(result)]
     for text, style in lines:
         # Soft wrap: a narrow window may break a line, but never cut a number.
@@ -146,6 +146,18 @@ def _exposures(result: CheckResult) -> Iterator[str]:
     for role, of in result.exposure.items():
         found = f"{of.worst:.3f} at {of.worst_depth:.3g} mm"
         yield f"Material exposure of the {role.value}: {found}; line contact {of.line_contact:.3f} at {of.line_depth:.3g} mm"
+
+
+def _films(result: CheckResult) -> Iterator[str]:
+    """Yield the lines on temperature and oil film along the path of contact, if they are asked for."""
+    if (film := result.film) is None:
+        return
+    hottest, thinnest = film.hottest, film.thinnest
+    hot = f"contact {film.contact[hottest]:.1f} °C at {film.places[hottest]:.4g} mm from T1"
+    yield f"Temperature: bulk {film.bulk:.1f} °C, flash up to {film.flash[hottest]:.1f} K, {hot}; µ = {film.friction:.4f}"
+    least = f"{film.thickness[thinnest]:.3g} µm over Ra {film.roughness:.3g} µm at {film.places[thinnest]:.4g} mm from T1"
+    safety = "" if film.safety is None else f"; S_lambda {film.safety:.3f}"
+    yield f"Specific film thickness: least {film.specific[thinnest]:.3f}, {least}{safety}; unconfirmed"
 
 
 def _reasons(result: CheckResult) -> Iterable[tuple[str, list[str]]]:

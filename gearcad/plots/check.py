@@ -9,6 +9,7 @@ import numpy as np
 
 from gearcad.check.depth import MaterialExposure
 from gearcad.check.friction import MeshLosses
+from gearcad.check.oil_film import OilFilm
 from gearcad.check.on_shafts import LoadOnShafts
 from gearcad.check.pictures import ToothSurface
 from gearcad.check.result import CheckResult, PlaneCheck, SolidCheck
@@ -159,6 +160,9 @@ _ROUNDED = 6
 _GAP = 3.0
 """Ratio of a triangle's edge to the distance between neighbours above which the edge spans a hole in the map."""
 
+_BREAK = 0.04
+"""Part of the path between neighbours above which a curve along it is broken."""
+
 _ACROSS = "across the face, from the middle of the common width, in mm"
 
 
@@ -204,6 +208,30 @@ def plot_exposure_course(exposure: MaterialExposure, ax: Axes | None = None) -> 
     bears = rf"$\tau_{{per}} = {exposure.profile.ratio:g}\,HV$"
     axes.plot(exposure.depths, exposure.permissible, color=SERIES[1], label=bears)
     axes.set_ylim(bottom=0)
+    legend_above(axes, 2)
+    return axes
+
+
+def plot_oil_film(film: OilFilm, ax: Axes | None = None) -> Axes:
+    """Contact temperature and specific film thickness along the path of contact, away from edges, and the standard's."""
+    axes, shown = prepared(ax, PATH, "temperature in °C"), film.shown
+    places, gaps = film.places[shown], np.diff(film.places[shown], prepend=film.places[shown][0])
+    broken = gaps > _BREAK * float(np.ptp(places))
+
+    def drawn(values: Floats) -> Floats:
+        return np.where(broken, np.nan, values[shown])
+
+    if film.standard_course is not None:
+        axes.plot(*film.standard_course, color=PALE, linewidth=3.5, label="contact, ISO/TR 13989-1")
+    axes.plot(places, drawn(film.contact), color=SERIES[0], label="contact, local pressures")
+    axes.axhline(film.bulk, color=DARK, linestyle="--", linewidth=1.2, label=f"bulk: {film.bulk:.1f} °C")
+    beside = axes.twinx()
+    beside.plot(places, drawn(film.specific), color=SERIES[1])
+    beside.set_ylabel(r"specific film thickness, $\lambda_{GF}$")
+    beside.set_ylim(bottom=0)
+    beside.spines["top"].set_visible(False)
+    axes.plot([], [], color=SERIES[1], label=r"$\lambda_{GF}$, at the right")
+    mark_path(axes, film.pair)
     legend_above(axes, 2)
     return axes
 

@@ -15,7 +15,7 @@ from gearcad.geometry.tooth_friction import MeshFriction, ohlendorf_loss_factor
 from gearcad.load import Load
 from gearcad.material import Material
 from gearcad.rating.options import LoadBin, RatingOptions
-from gearcad.rating.scuffing import RZ_OVER_RA, USUAL_ROUGHNESS, scuffing
+from gearcad.rating.scuffing import RZ_OVER_RA, USUAL_ROUGHNESS, Scuffing, scuffing
 from gearcad.rating.scuffing_temperatures import LEAST_LOAD
 
 FrictionLaw = Literal["flash", "integral", "niemann"]
@@ -48,12 +48,12 @@ def mesh_friction(
 
     The pinion drives, or the wheel where the torque is against the speed. Raises ParameterError where a law has no coefficient.
     """
-    driver = Role.WHEEL if load.torque * load.speed < 0 else Role.PINION
+    driver = _driver(load)
     if not isinstance(friction, str):
         return MeshFriction(reference=float(friction), driver=driver)
     base = pair.pinion.base_diameter / 2
     force = abs(load.torque) * load.application_factor * 1000 / base / pair.common_width.width
-    rated = scuffing(pair, materials, load, _Application(load.application_factor), options, driver)
+    rated = scuffing_of_check(pair, materials, load, options)
     if rated.integral is None or not force:
         why = rated.reason or "without torque there is none"
         raise ParameterError("check.friction", friction, f"must be a number: {why}")
@@ -74,6 +74,16 @@ def mesh_friction(
     return MeshFriction(
         reference=coefficient, driver=driver, law=friction, exponent=_EXPONENT, reference_force=force, least_force=least
     )
+
+
+def _driver(load: Load) -> Role:
+    """Return the gear that drives: the wheel where the torque is against the speed."""
+    return Role.WHEEL if load.torque * load.speed < 0 else Role.PINION
+
+
+def scuffing_of_check(pair: GearPair, materials: PerGear[Material], load: Load, options: RatingOptions) -> Scuffing:
+    """Return the temperatures of a pair under its load, of load factors with K_A alone. Raises what `scuffing` raises."""
+    return scuffing(pair, materials, load, _Application(load.application_factor), options, _driver(load))
 
 
 def mean_coefficient(

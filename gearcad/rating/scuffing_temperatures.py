@@ -10,7 +10,7 @@ Numbers in the text are equations of ISO/TR 13989-2. All functions take numbers,
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, TypeVar
 
@@ -154,6 +154,14 @@ LUBRICANT = {
 }
 """X_L without the viscosity (ISO/TR 13989-1, 27; 13989-2, 5.1)."""
 
+PRESSURE_VISCOSITY = {
+    OilType.MINERAL: (26.57, 0.1348),
+    OilType.POLYALPHAOLEFIN: (14.66, 0.0507),
+    OilType.POLYGLYCOL: (13.92, 0.1572),
+    OilType.SOLUBLE_POLYGLYCOL: (13.92, 0.1572),
+}
+"""c and e in alpha_38 = c eta_38^e (1/GPa, eta in Pa s), of ISO/TR 15144-1 as remembered: unconfirmed."""
+
 LUBRICATION = {Lubrication.DIP: 1.0, Lubrication.SPRAY: 1.2, Lubrication.SUBMERGED: 0.2}
 """Lubrication factor X_S (ISO/TR 13989-1, 22)."""
 
@@ -247,6 +255,14 @@ class Oil:
     def dynamic_viscosity(self) -> float:
         """eta (mPa·s) at the oil's temperature, which takes 0.7 kg/m³ from the density for each degree."""
         return self.kinematic_viscosity * (self.density - 0.7 * (self.temperature - 15)) / 1000
+
+    @property
+    def pressure_viscosity(self) -> float | None:
+        """alpha_38 (1/GPa) of the kind of oil at 38 °C, unconfirmed; None of a kind for which there is none."""
+        if self.kind not in PRESSURE_VISCOSITY:
+            return None
+        factor, exponent = PRESSURE_VISCOSITY[self.kind]
+        return float(factor * (replace(self, temperature=38.0).dynamic_viscosity / 1000) ** exponent)
 
     @property
     def lubricant_factor(self) -> float:

@@ -39,6 +39,7 @@ from gearcad.plots.check import (
     plot_load_share,
     plot_losses,
     plot_mesh_stiffness,
+    plot_oil_film,
     plot_root_along_face,
     plot_root_stress,
     plot_stress_field,
@@ -369,6 +370,7 @@ class CheckSections(ABC, Generic[Checked]):
             _common("Root stress over the mesh", partial(plot_root_stress, of), "root_stress", of),
             *([] if of.losses is None else [_common("Losses", partial(plot_losses, of.losses), "friction_losses", of)]),
             *(figure for exposure in of.exposure.values() for figure in _below_flank(exposure)),
+            *([] if of.film is None else [_common("Oil film", partial(plot_oil_film, of.film), "oil_film", of.film)]),
         ]
 
     @property
