@@ -15,7 +15,7 @@ from gearcad.identify import Measurements
 __all__ = ["key_tables"]
 
 _PARTS = ("rack", "cutter", "premachining", "finishing", "making", "double_helix", "body", "modification")
-_BESIDE = ("material", "load", "mounting", "rating", "check", "mesh", "dynamics", "drawing", "verify")
+_BESIDE = ("material", "load", "mounting", "rating", "check", "mesh", "dynamics", "drawing", "verify", "modify")
 
 
 @cache

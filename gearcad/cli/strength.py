@@ -584,4 +584,10 @@ def _lines(proposal: Proposal) -> list[str]:
         words += f", misaligned by {of.misalignment:+g} µm more" if of.misalignment else ""
         words += f", pitch error of {of.pitch_error:g} µm" if of.pitch_error else ""
         lines.append(f"{words:<42}{each.before:>10.4g}{each.after:>10.4g} µm")
+    if (found := proposal.loads) is not None:
+        lines.append("transmission error, peak to peak, under the loads")
+        each_load = zip(found.loads.torques, found.loads.weights, found.before, found.after, strict=True)
+        lines += [f"{f'  {at:g} N·m, weight {of:g}':<42}{one:>10.4g}{other:>10.4g} µm" for at, of, one, other in each_load]
+        one, other = found.statistics
+        lines.append(f"{f'  {found.loads.statistic.value} of all, made least':<42}{one:>10.4g}{other:>10.4g} µm")
     return lines

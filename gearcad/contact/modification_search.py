@@ -15,6 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from gearcad.contact.load_range import LoadRange
 from gearcad.contact.modification_variants import AMOUNTS, Condition, FlankVariants, Outcomes, with_amounts
 from gearcad.contact.solid.pair import KnownResponses, SolidPair
 from gearcad.core.errors import GeometryError
@@ -305,7 +306,8 @@ class Search:
     """Variants between `low` and `high` (6,) under a torque (N·m).
 
     `plain` is what becomes of the flanks without reliefs and crowning, their helix angle made up for a misalignment;
-    `surveyed` are places that were solved roughly before.
+    `surveyed` are places that were solved roughly before. With several `loads`, of which the torque is the greatest, the
+    transmission error is their statistic; pressures and loads on edges are the greatest under any.
     """
 
     variants: FlankVariants
@@ -315,6 +317,7 @@ class Search:
     start: Floats
     plain: Outcomes
     surveyed: Remembered | None = field(default=None, repr=False)
+    loads: LoadRange | None = None
 
     @property
     def deflection(self) -> float:
@@ -322,8 +325,15 @@ class Search:
         return float(self.plain.transmission_errors.max())
 
     def outcomes(self, amounts: Floats, condition: Condition | None = None) -> Outcomes:
-        """Return the outcomes of variants (v, 6) under a condition, or under the torque of the search without one."""
+        """Return the outcomes of variants (v, 6) under a condition, else under the loads of the search, or its torque."""
+        if condition is None and self.loads is not None:
+            parts = [self.variants.outcomes(amounts, Condition(torque)) for torque in self.loads.torques]
+            return Outcomes.joined(parts, self.loads)
         return self.variants.outcomes(amounts, condition or Condition(self.torque))
+
+    def _read(self, figures: Floats) -> Outcomes:
+        """Return the outcomes of figures (v, 3 positions), under the loads of the search."""
+        return Outcomes.from_figures(figures, self.loads)
 
     def best(self, bounds: Sequence[float]) -> FoundModification:
         """Return the proposal for the first of the bounds (MPa) that can be kept, else for the last.
@@ -332,7 +342,7 @@ class Search:
         """
         for bound in bounds:
             places = self._survey(bound)
-            if bound != bounds[-1] and Outcomes.from_figures(self._rough(places)).pressures.min() > _OUT_OF_REACH * bound:
+            if bound != bounds[-1] and self._read(self._rough(places)).pressures.min() > _OUT_OF_REACH * bound:
                 continue
             found = self._settled(bound, places)
             if found.bounded:
@@ -355,7 +365,7 @@ class Search:
         places, here = self._lattice.near(_nearest(found.amounts)), _nearest(found.amounts)[None]
         goal = self._goal(self._full, bound, edges=not found.edges_free)
         values = goal.at(places)
-        kept = (Outcomes.from_figures(self._full(places)).pressures <= bound) & (values < goal.at(here)[0])
+        kept = (self._read(self._full(places)).pressures <= bound) & (values < goal.at(here)[0])
         best = np.flatnonzero(kept)[np.argsort(values[kept], kind="stable")][:count]
         return [
             replace(found, amounts=each, outcome=self.outcomes(each[None]), tried=found.tried + len(places))
@@ -421,7 +431,7 @@ class Search:
 
         The pressure counts too. Else the free play would go into crowning that nothing asks for.
         """
-        pressures = Outcomes.from_figures(self._full(places)).pressures
+        pressures = self._read(self._full(places)).pressures
         within = pressures <= bound * (1 + _WITHIN)
         permitted = within if within.any() else np.ones_like(within)
         near = np.flatnonzero(permitted & (scores <= (1 + _NEAR) * scores[permitted].min()))
@@ -433,7 +443,7 @@ class Search:
         return best
 
     def _goal(self, figures: Remembered, bound: float, *, edges: bool) -> Goal:
-        return Goal(figures, lambda rows: self.scores(Outcomes.from_figures(rows), bound, edges=edges))
+        return Goal(figures, lambda rows: self.scores(self._read(rows), bound, edges=edges))
 
     @cached_property
     def _lattice(self) -> Lattice:
@@ -448,9 +458,9 @@ class Search:
     def _rough(self) -> Remembered:
         if self.surveyed is not None:
             return self.surveyed
-        full, condition = self.variants, Condition(self.torque)
-        variants = replace(full, count=full.count // _ROUGH, at_ends=full.at_ends // _ROUGH)
-        return Remembered(lambda places: variants.outcomes(_amounts(places), condition).figures)
+        full = self.variants
+        rough = replace(self, variants=replace(full, count=full.count // _ROUGH, at_ends=full.at_ends // _ROUGH))
+        return Remembered(lambda places: rough.outcomes(_amounts(places)).figures)
 
 
 def _nearest(amounts: Floats) -> Wholes:
@@ -491,11 +501,18 @@ _LONGEST = 0.5
 """Shortest and longest tip relief, as shares of the path of contact: in its middle flanks stay exact."""
 
 
-def start_search(model: SolidPair, torque: float, shape: ReliefShape, lead: tuple[float, float] | None = None) -> Search:
+def start_search(
+    model: SolidPair,
+    torque: float,
+    shape: ReliefShape,
+    lead: tuple[float, float] | None = None,
+    loads: LoadRange | None = None,
+) -> Search:
     """Prepare a search at a torque (N·m) for a model whatever its own tip relief and crowning; the helix angle is modified
     only against a misalignment of its mounting.
 
     `lead` (whole µm) are lead crowning and helix angle modification of the pinion that are found elsewhere and do not vary.
+    With several `loads` the torque is the greatest of them.
     """
     nothing = np.zeros(len(AMOUNTS))
     sampling = _HELICAL if model.helix else _SPUR
@@ -507,7 +524,8 @@ def start_search(model: SolidPair, torque: float, shape: ReliefShape, lead: tupl
     low, high = _bounds(bare, shape, float(plain.transmission_errors.max()), lead)
     roomy = bare.remade(with_amounts(bare.pair, high, shape), bare.mounting)
     variants = FlankVariants(roomy, shape, sampling.positions, torque, sampling.at_ends)
-    return Search(variants, torque, low, high, start, variants.outcomes(start[None], Condition(torque)))
+    search = Search(variants, torque, low, high, start, plain, loads=loads)
+    return replace(search, plain=search.outcomes(start[None]))
 
 
 def _aligning(model: SolidPair) -> float:

@@ -8,12 +8,14 @@ The bodies answer as in `line_contact`; only gaps differ between variants, and c
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
+from gearcad.contact.load_range import LoadRange
 from gearcad.contact.shared.line_of_action import TransverseFlank, gears_loaded_left
 from gearcad.contact.shared.loaded import INTERIOR
 from gearcad.contact.shared.local_contact import Onset, onsets, start_distance
@@ -147,17 +149,27 @@ class Outcomes:
     """Outcomes of variants at each position (v, positions).
 
     These are transmission errors in µm, the greatest interior pressures in MPa, and the shares of the load that the edges of
-    tips carry.
+    tips carry. Of several `loads` the positions under each come one after another.
     """
 
     transmission_errors: Floats
     position_pressures: Floats
     position_edge_shares: Floats
+    loads: LoadRange | None = None
 
     @classmethod
-    def from_figures(cls, figures: Floats) -> Outcomes:
-        """Return the outcomes that `figures` (v, 3 positions) holds side by side."""
-        return cls(*np.split(figures, 3, axis=-1))
+    def from_figures(cls, figures: Floats, loads: LoadRange | None = None) -> Outcomes:
+        """Return the outcomes that `figures` (v, 3 positions) holds side by side, under several `loads` if given."""
+        errors, pressures, edges = np.split(figures, 3, axis=-1)
+        return cls(errors, pressures, edges, loads)
+
+    @classmethod
+    def joined(cls, parts: Sequence[Outcomes], loads: LoadRange) -> Outcomes:
+        """Return the outcomes under several loads as one, from those under each."""
+        errors = np.concatenate([each.transmission_errors for each in parts], axis=-1)
+        pressures = np.concatenate([each.position_pressures for each in parts], axis=-1)
+        edges = np.concatenate([each.position_edge_shares for each in parts], axis=-1)
+        return cls(errors, pressures, edges, loads)
 
     @property
     def figures(self) -> Floats:
@@ -166,8 +178,18 @@ class Outcomes:
 
     @property
     def peak_to_peak(self) -> Floats:
-        """Peak to peak (v,) of the transmission error in µm."""
+        """Peak to peak (v,) of the transmission error in µm; of several loads their statistic."""
+        if self.loads is not None:
+            return self.loads.of(self.of_each_load)
         result: Floats = np.ptp(self.transmission_errors, axis=-1)
+        return result
+
+    @property
+    def of_each_load(self) -> Floats:
+        """Peak to peak (v, k) of the transmission error in µm under each load."""
+        count = 1 if self.loads is None else len(self.loads.torques)
+        errors = self.transmission_errors
+        result: Floats = np.ptp(errors.reshape(*errors.shape[:-1], count, -1), axis=-1)
         return result
 
     @property

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from _typeshed import DataclassInstance
 
     from gearcad.check.options import CheckOptions
+    from gearcad.contact.load_range import ModifyOptions
     from gearcad.designs.shaft_spec import PairShafts
     from gearcad.drawing.options import DrawingOptions, PartDrawing
     from gearcad.dynamics.options import DynamicsOptions
@@ -121,6 +122,7 @@ class Inputs(TypedDict, total=False):
     rating: RatingOptions
     drawing: DrawingOptions
     verify: VerificationOptions
+    modify: ModifyOptions
     shafts: PairShafts
 
 
@@ -134,6 +136,7 @@ class GearedDesign(ToothedDesign):
     mesh: MeshOptions | None = None
     dynamics: DynamicsOptions | None = None
     rating: RatingOptions | None = None
+    modify: ModifyOptions | None = None
 
     @classmethod
     def spec(cls, tables: Mapping[str, Any], where: Where) -> Spec:

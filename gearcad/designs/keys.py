@@ -138,6 +138,7 @@ _HOMES = {
     "rating": "rating.options.RatingOptions",
     "drawing": "drawing.options.DrawingOptions",
     "verify": "verification.claims.VerificationOptions",
+    "modify": "contact.load_range.ModifyOptions",
 }
 
 

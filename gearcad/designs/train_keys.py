@@ -60,6 +60,9 @@ PRE_STAGE: dict[str, FieldSchema] = {
 }
 """The keys of a pair before or behind the set; `pinion.on` is the member that its pinion turns with."""
 
+_OF_PAIRS = ("mounting", "modify")
+"""Tables that no planetary train has."""
+
 _OF_VIBRATION = ("speed_from", "speed_to", "speeds", "harmonics", "stiffness", "damping_ratio")
 
 PLANETARY: dict[str, dict[str, FieldSchema]] = {
@@ -71,7 +74,11 @@ PLANETARY: dict[str, dict[str, FieldSchema]] = {
         **{f"pre_stage.{key}": field for key, field in PRE_STAGE.items()},
     },
     **SET_FIELDS,
-    **{table: dict(flat_fields(kind)) for table, kind in {**BESIDE, "load": TrainLoad}.items() if table != "mounting"},
+    **{
+        table: dict(flat_fields(kind))
+        for table, kind in {**BESIDE, "load": TrainLoad}.items()
+        if table not in ("mounting", "modify")
+    },
     "dynamics": {key: schema_of(DynamicsOptions)[key] for key in _OF_VIBRATION},
 }
 PLANETARY["material"] |= names_of_materials(*OF_SETS)

@@ -12,6 +12,7 @@ import numpy as np
 from gearcad.check.options import CheckOptions, Model
 from gearcad.check.relief_start import start_notice
 from gearcad.check.summary import ERRORS, PRESSURE, SOLID
+from gearcad.contact.load_range import LoadRange
 from gearcad.contact.modification_search import FoundModification, Search, conditions, start_search
 from gearcad.contact.modification_variants import AMOUNTS, Condition, with_amounts
 from gearcad.contact.shared.line_of_action import loaded_left
@@ -86,6 +87,32 @@ class Robustness(NamedTuple):
         return {**asdict(self.condition), "before": self.before, "after": self.after}
 
 
+class LoadErrors(NamedTuple):
+    """Transmission errors, peak to peak (k,) in µm, before and after the proposal, under the loads of a search."""
+
+    loads: LoadRange
+    before: tuple[float, ...]
+    after: tuple[float, ...]
+
+    @property
+    def statistics(self) -> tuple[float, float]:
+        """The statistic (µm) that is made least, before and after."""
+        before, after = (float(self.loads.of(np.array(each))) for each in (self.before, self.after))
+        return before, after
+
+    def to_dict(self) -> JsonObject:
+        """Return the entry in the document of a proposal: torques in N·m, transmission errors in µm."""
+        before, after = self.statistics
+        names = ("torque", "weight", "before", "after")
+        each = zip(self.loads.torques, self.loads.weights, self.before, self.after, strict=True)
+        return {
+            "objective": self.loads.statistic.value,
+            "before": before,
+            "after": after,
+            "each": [dict(zip(names, row, strict=True)) for row in each],
+        }
+
+
 class LeadOnShafts(NamedTuple):
     """f_sh and f_ma (µm), and K_Hbeta of the load over the face on the shafts, of the worse side, before and after."""
 
@@ -114,6 +141,7 @@ class Proposal(Pictured):
     after: CycleFigures
     robustness: tuple[Robustness, ...]
     lead: LeadOnShafts | None = None
+    loads: LoadErrors | None = None
 
     def __repr__(self) -> str:
         errors = (each.transmission_error_peak_to_peak for each in (self.before, self.after))
@@ -179,6 +207,7 @@ class Proposal(Pictured):
             "before": asdict(self.before),
             "after": asdict(self.after),
             "robustness": [each.to_dict() for each in self.robustness],
+            **({} if self.loads is None else {"loads": self.loads.to_dict()}),
             **({} if self.lead is None else {"shafts": self.lead._asdict()}),
             "warnings": list(self.warnings),
             "notices": [each.to_dict() for each in self.notices],
@@ -208,7 +237,8 @@ _TURNS = 8
 
 @dataclass(frozen=True, kw_only=True)
 class Modify(Job[PairDesign, Proposal]):
-    """Search tip relief and crowning for a pair at a torque (N·m on the pinion; None: that of its load, times its factor).
+    """Search tip relief and crowning for a pair at a torque (N·m on the pinion; None: the loads of [modify], or that of its
+    load, times its factor).
 
     `pressure` (MPa) None stands for the material's limit or, where that is out of reach, a little more than without
     modifications; `shape` of the tip relief None for the better one.
@@ -234,19 +264,20 @@ class Modify(Job[PairDesign, Proposal]):
     @one_thread()
     def run(self, design: Design, progress: Progress | None = None) -> Proposal:
         design = self.accepted(design, progress)
-        pair, torque = self._task(design)
+        loads = None if self.torque is not None or design.modify is None else design.modify.range
+        pair, torque = self._task(design, loads)
         options, agenda = design.check or CheckOptions(), Agenda(progress, dict.fromkeys(_STEPS, 1.0))
         on_shafts = _lead_on_shafts(design, torque)
         model = _model(design, pair, torque, options, agenda, on_shafts)
         agenda(_CYCLE)
         count, limits = options.positions_of(Model.SOLID), self._limits(design.material or Material())
-        before = _checked(model, torque, count)
+        before, others = _checked(model, torque, count), _under_others(model, torque, loads, count)
         agenda(_SEARCH)
         shapes = ReliefShape if self.shape is None else (self.shape,)
         tried = [
             each
             for shape in shapes
-            for each in _tried(model, torque, shape, limits, count, self.pressure is not None, on_shafts)
+            for each in _tried(model, torque, shape, limits, count, self.pressure is not None, on_shafts, loads)
         ]
         best = _polished(model, _best(tried, limits), count)
         agenda(_ROBUSTNESS)
@@ -266,11 +297,14 @@ class Modify(Job[PairDesign, Proposal]):
             after=best.figures,
             robustness=robustness,
             lead=None if on_shafts is None else on_shafts.figures,
+            loads=None
+            if loads is None
+            else LoadErrors(loads, _errors(loads, before, others), _errors(loads, best.cycle, best.others)),
         )
 
-    def _task(self, design: PairDesign) -> tuple[GearPair, float]:
-        """Pair and torque; raises for what cannot be searched."""
-        torque = self.torque
+    def _task(self, design: PairDesign, loads: LoadRange | None) -> tuple[GearPair, float]:
+        """Pair and torque, the greatest of the loads; raises for what cannot be searched."""
+        torque = self.torque if loads is None else loads.greatest
         if torque is None:
             if design.load is None:
                 raise ParameterError("load.torque", None, "must be given, in N·m on the pinion, here or as --torque")
@@ -404,6 +438,20 @@ class _Tried(NamedTuple):
     cycle: SolidCycle
     figures: CycleFigures
     bound: float
+    others: tuple[SolidCycle, ...] = ()
+
+    @property
+    def error(self) -> float:
+        """Transmission error, peak to peak (µm), that is to be least; of several loads their statistic."""
+        loads = self.search.loads
+        if loads is None:
+            return self.figures.transmission_error_peak_to_peak
+        return float(loads.of(np.array(_errors(loads, self.cycle, self.others))))
+
+    @property
+    def turns(self) -> Floats:
+        """Roll angles (deg) that a check under all loads adds to a search."""
+        return np.concatenate([_turns(each) for each in (self.cycle, *self.others)])
 
     @property
     def shape(self) -> ReliefShape:
@@ -419,7 +467,7 @@ class _Tried(NamedTuple):
     def price(self) -> float:
         """Transmission error, peak to peak (µm), and what a pressure above the bound costs."""
         over = float(self.search.price(np.array(self.figures.contact_pressure), self.bound))
-        return self.figures.transmission_error_peak_to_peak + over
+        return self.error + over
 
 
 def _tried(
@@ -430,12 +478,13 @@ def _tried(
     count: int,
     given: bool,
     on_shafts: _OnShafts | None,
+    loads: LoadRange | None = None,
 ) -> list[_Tried]:
     """Search with one shape of the tip relief: what it came to for the first bound that is kept, else for the last."""
     if on_shafts is None:
-        search = start_search(model, torque, shape)
+        search = start_search(model, torque, shape, loads=loads)
     else:
-        search = start_search(on_shafts.turned(model), torque, shape, on_shafts.amounts(model.pair, torque))
+        search = start_search(on_shafts.turned(model), torque, shape, on_shafts.amounts(model.pair, torque), loads)
     plain = _modified(model, search.start, shape, torque, count).extreme(PRESSURE)
     seen = float(search.plain.pressures[0])
     greatest = seen if plain is None else plain.value
@@ -454,15 +503,13 @@ def _closer(model: SolidPair, search: Search, found: FoundModification, bound: f
     """Check proposals and search again, at the positions where their extremes are and for a pressure that the search sees."""
     every: list[_Tried] = []
     while True:
-        cycle = _modified(model, found.amounts, search.variants.shape, search.torque, count)
-        figures = CycleFigures.of(cycle)
-        every.append(_Tried(search, found, cycle, figures, bound))
-        missed = figures.transmission_error_peak_to_peak - found.peak_to_peak
-        close = missed <= _SEEN * figures.transmission_error_peak_to_peak
+        here = _found(model, search, found, bound, count)
+        every.append(here)
+        close = here.error - found.peak_to_peak <= _SEEN * here.error
         if len(every) == _ROUNDS or (close and (every[-1].bounded or not found.bounded)):
             return every
-        search = search.closer(_turns(cycle))
-        seen = float(search.outcomes(found.amounts[None]).pressures[0]) / figures.contact_pressure
+        search = search.closer(here.turns)
+        seen = float(search.outcomes(found.amounts[None]).pressures[0]) / here.figures.contact_pressure
         again = search.again(found, _BELOW * seen * bound)
         if every[-1].bounded and np.array_equal(again.amounts, found.amounts):
             return every
@@ -471,14 +518,33 @@ def _closer(model: SolidPair, search: Search, found: FoundModification, bound: f
 
 def _polished(model: SolidPair, best: _Tried, count: int) -> _Tried:
     """Return the best, by the figures of a check, of a proposal and those neighbours that the search takes for better."""
-    search = best.search.closer(_turns(best.cycle))
+    search = best.search.closer(best.turns)
     seen = float(search.outcomes(best.found.amounts[None]).pressures[0]) / best.figures.contact_pressure
     for found in search.better(best.found, seen * best.bound, _NEARBY):
-        cycle = _modified(model, found.amounts, best.shape, search.torque, count)
-        other = _Tried(search, found, cycle, CycleFigures.of(cycle), best.bound)
+        other = _found(model, search, found, best.bound, count)
         if other.price < best.price and other.bounded >= best.bounded:
             best = other
     return best
+
+
+def _found(model: SolidPair, search: Search, found: FoundModification, bound: float, count: int) -> _Tried:
+    """Return what a check under all loads makes of what a search found."""
+    cycle = _modified(model, found.amounts, search.variants.shape, search.torque, count)
+    others = _under_others(cycle.model, search.torque, search.loads, count)
+    return _Tried(search, found, cycle, CycleFigures.of(cycle), bound, others)
+
+
+def _under_others(model: SolidPair, torque: float, loads: LoadRange | None, count: int) -> tuple[SolidCycle, ...]:
+    """Return the mesh cycles of a model under the loads other than the torque, in their order."""
+    others = () if loads is None else (each for each in loads.torques if each != torque)
+    return tuple(SolidCycle.run(model, each, count).searched(ERRORS) for each in others)
+
+
+def _errors(loads: LoadRange, cycle: SolidCycle, others: Sequence[SolidCycle]) -> tuple[float, ...]:
+    """Return the transmission errors, peak to peak (k,) in µm, under the loads."""
+    swings = {each.torque: float(np.ptp(each.course("transmission_error"))) for each in others}
+    swings[cycle.torque] = CycleFigures.of(cycle).transmission_error_peak_to_peak
+    return tuple(swings[torque] for torque in loads.torques)
 
 
 def _turns(cycle: SolidCycle) -> Floats:

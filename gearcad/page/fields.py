@@ -61,8 +61,11 @@ _TITLES = {
 }
 """Titles of parts that are not their names."""
 
-_LATER = ("mounting", "mesh", "dynamics", "drawing", "check", "rating", "verify")
+_LATER = ("mounting", "mesh", "dynamics", "drawing", "check", "rating", "verify", "modify")
 """Tables that users need later, which the page shows folded if the spec does not have them."""
+
+_OF_PAIRS = ("load", "mounting", "modify")
+"""Tables whose defaults no planetary train has."""
 
 _GRADES = tuple(f"{group} {quality}" for group in GRADED_GROUPS for quality in MaterialQuality)
 _OFFERED = {"rack": tuple(NAMED_RACKS), "material": _GRADES, "profile_shift": (AUTO,), "tip_alteration": (AUTO, CLEAR)}
@@ -283,7 +286,7 @@ def _named(tables: Mapping[str, Any]) -> dict[str, str]:
 def _by_default(kind: DesignKind) -> Mapping[str, str]:
     """Return the default values, as typed text, of tables that stand beside a gear."""
     made: dict[str, str] = {}
-    for table in BESIDE if kind is not DesignKind.PLANETARY else [each for each in BESIDE if each not in ("load", "mounting")]:
+    for table in BESIDE if kind is not DesignKind.PLANETARY else [each for each in BESIDE if each not in _OF_PAIRS]:
         made |= _texts(_defaults(BESIDE[table]), f"{table}.")
     return MappingProxyType(made)
 

@@ -364,3 +364,25 @@ def test_a_spline_is_checked_tooth_by_tooth_and_says_what_was_not_judged(here: P
     assert sum(document["contact"]["torques"]) == pytest.approx(80.0, rel=1e-9)
     refused = invoke("check", spec_file(SPLINE.partition("[load]")[0]))
     assert refused.exit_code != 0 and "load.torque" in refused.output and "Traceback" not in refused.output
+
+
+@pytest.mark.long
+@pytest.mark.usefixtures("no_report")
+def test_a_proposal_over_loads_is_what_a_finer_check_finds(modify_here: Path) -> None:
+    loads = "[modify]\nloads = [[50, 1], [30, 3]]\n"
+    text = SPEC.replace("contact_limit = [100.0, 200.0]    # out of reach", "contact_limit = 3000.0")
+    text = text.replace("modification.lead_crowning = 9.0  # of a time when nobody asked why", "")
+    result = invoke("modify", spec_file(text + loads), "--json", "--quiet", "--shape", "parabolic")
+    assert (result.exit_code, result.stderr) == (0, "")
+    found = json.loads(result.stdout)["loads"]
+    assert (found["objective"], [each["torque"] for each in found["each"]]) == ("mean", [50, 30])
+    assert found["after"] == pytest.approx(sum(each["after"] * each["weight"] for each in found["each"]) / 4, rel=1e-12)
+    assert found["after"] < found["before"]
+    written = Path("pair-modified.toml").read_text(encoding="utf-8")
+    for each in found["each"]:
+        finer = written.replace("positions = 12", "positions = 48").replace("torque = 40.0", f"torque = {each['torque']}")
+        finer = finer.replace("application_factor = 1.25", "application_factor = 1.0").replace("refinement = 0.5", "refinement = 1.0")
+        Path("finer.toml").write_text(finer, encoding="utf-8")
+        assert invoke("check", "finer.toml", "-o", "finer", "--quiet").exit_code in (0, 1)
+        summary = read_json("finer/check.json")["summary"]
+        print(each, summary["transmission_error_peak_to_peak"])

@@ -171,7 +171,7 @@ def test_a_job_without_a_load_or_on_something_else_is_one_line(verb: str) -> Non
 
 def test_what_is_permitted_beside_the_load_is_said() -> None:
     with pytest.raises(
-        ParameterError, match=r"permitted: material, load, mounting, check, mesh, dynamics, rating, drawing, verify$"
+        ParameterError, match=r"permitted: material, load, mounting, check, mesh, dynamics, rating, drawing, verify, modify$"
     ):
         gearcad.check(FZG_C, Load(torque=60), chek=CheckOptions())
     for methods in ("iso6336", [], 5):

@@ -11,10 +11,12 @@ from threadpoolctl import threadpool_limits
 
 from gearcad import Mounting
 from gearcad.check.summary import PRESSURE
+from gearcad.contact.load_range import LoadRange, ModifyOptions, Statistic
 from gearcad.contact.modification_search import FoundModification, Search, _Sampling, start_search
 from gearcad.contact.modification_variants import AMOUNTS, Condition, with_amounts
 from gearcad.contact.shared.line_of_action import loaded_left
 from gearcad.contact.solid.cycle import SolidCycle
+from gearcad.core.errors import ParameterError
 from gearcad.geometry import ReliefShape
 from gearcad.jobs.modify import _best, _modified, _polished, _tried, unmirrored
 
@@ -233,3 +235,62 @@ def test_of_two_shapes_the_one_with_free_edges_is_proposed_if_it_is_worth_it(
     assert _best(tried, []) is tried[chosen]
     broken = SimpleNamespace(found=SimpleNamespace(edges_free=True), bounded=False, bound=1800.0, price=1.0, search=search)
     assert _best([broken, *tried], []) is tried[chosen]
+
+
+@pytest.mark.parametrize(
+    "statistic", [Statistic.MEAN, *(pytest.param(each, marks=pytest.mark.long) for each in (Statistic.MEDIAN, Statistic.WORST))]
+)
+def test_one_load_gives_the_proposal_of_its_torque_to_the_bit(search: Search, statistic: Statistic) -> None:
+    bound = _GENEROUS * float(search.plain.pressures[0])
+    over = replace(search, loads=LoadRange((TORQUE,), (0.3,), statistic))
+    with threadpool_limits(1):
+        one, other = run(search, bound), run(over, bound)
+    assert np.array_equal(one.amounts, other.amounts)
+    assert one.peak_to_peak == other.peak_to_peak
+    assert np.array_equal(one.outcome.figures, other.outcome.figures)
+
+
+def test_statistics_of_loads_go_by_their_weights() -> None:
+    values, torques = np.array([[4.0, 1.0, 2.0], [1.0, 1.0, 7.0]]), (100.0, 200.0, 300.0)
+    found = {each: LoadRange(torques, (2.0, 1.0, 1.0), each).of(values).tolist() for each in Statistic}
+    assert found == {Statistic.MEAN: [2.75, 2.5], Statistic.MEDIAN: [2.0, 1.0], Statistic.WORST: [4.0, 7.0]}
+    assert LoadRange((100.0, -200.0), (1.0, 1.0)).greatest == -200.0
+
+
+@pytest.mark.long
+def test_a_proposal_over_loads_is_better_over_them_than_that_of_the_greatest(search: Search) -> None:
+    loads = LoadRange((TORQUE, 0.6 * TORQUE), (1.0, 2.0))
+    over = replace(search, loads=loads)
+    bound = _GENEROUS * float(search.plain.pressures[0])
+    with threadpool_limits(1):
+        one, found = run(search, bound), run(over, bound)
+        # Each load by itself, without what joins them.
+        swings = [
+            np.array([search.outcomes(each.amounts[None], Condition(torque)).peak_to_peak[0] for torque in loads.torques])
+            for each in (one, found)
+        ]
+    of_one, of_found = (float(np.average(each, weights=loads.weights)) for each in swings)
+    assert found.peak_to_peak == pytest.approx(of_found, rel=1e-9)
+    assert of_found < 0.9 * of_one
+    assert swings[0][0] < swings[1][0]
+    assert found.bounded
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ("200", "must be a list of"),
+        ([[200, 1, 2]], "must be a list of"),
+        ([], "must have from 1 to"),
+        ([[200, 1], [-100, 1]], "torques of one sense"),
+        ([[200, 0]], "weights above 0"),
+        ([[200, 1], [200, 2]], "each torque once"),
+    ],
+)
+def test_absurd_loads_are_told(given: object, said: str) -> None:
+    with pytest.raises(ParameterError, match=said):
+        ModifyOptions(loads=given)  # type: ignore[arg-type]
+
+
+def test_loads_of_a_cell_are_those_of_a_list() -> None:
+    assert ModifyOptions(loads="200:0.25 150:0,75").loads == ((200.0, 0.25), (150.0, 0.75))  # type: ignore[arg-type]
