@@ -368,21 +368,23 @@ def test_a_spline_is_checked_tooth_by_tooth_and_says_what_was_not_judged(here: P
 
 @pytest.mark.long
 @pytest.mark.usefixtures("no_report")
-def test_a_proposal_over_loads_is_what_a_finer_check_finds(modify_here: Path) -> None:
+def test_a_proposal_over_loads_is_what_checks_under_each_find(modify_here: Path) -> None:
     loads = "[modify]\nloads = [[50, 1], [30, 3]]\n"
     text = SPEC.replace("contact_limit = [100.0, 200.0]    # out of reach", "contact_limit = 3000.0")
     text = text.replace("modification.lead_crowning = 9.0  # of a time when nobody asked why", "")
     result = invoke("modify", spec_file(text + loads), "--json", "--quiet", "--shape", "parabolic")
     assert (result.exit_code, result.stderr) == (0, "")
-    found = json.loads(result.stdout)["loads"]
-    assert (found["objective"], [each["torque"] for each in found["each"]]) == ("mean", [50, 30])
+    document = json.loads(result.stdout)
+    found = document["loads"]
+    assert (document["torque"], found["objective"], [each["torque"] for each in found["each"]]) == (50, "mean", [50, 30])
     assert found["after"] == pytest.approx(sum(each["after"] * each["weight"] for each in found["each"]) / 4, rel=1e-12)
-    assert found["after"] < found["before"]
-    written = Path("pair-modified.toml").read_text(encoding="utf-8")
+    assert found["after"] < 0.5 * found["before"]
+    written = Path("pair-modified.toml").read_text(encoding="utf-8").replace("application_factor = 1.25", "")
+    assert "loads = [[50, 1], [30, 3]]" in written
     for each in found["each"]:
-        finer = written.replace("positions = 12", "positions = 48").replace("torque = 40.0", f"torque = {each['torque']}")
-        finer = finer.replace("application_factor = 1.25", "application_factor = 1.0").replace("refinement = 0.5", "refinement = 1.0")
-        Path("finer.toml").write_text(finer, encoding="utf-8")
-        assert invoke("check", "finer.toml", "-o", "finer", "--quiet").exit_code in (0, 1)
-        summary = read_json("finer/check.json")["summary"]
-        print(each, summary["transmission_error_peak_to_peak"])
+        Path("one.toml").write_text(written.replace("torque = 40.0", f"torque = {each['torque']}"), encoding="utf-8")
+        assert invoke("check", "one.toml", "-o", "checked", "--quiet").exit_code in (0, 1)
+        summary = read_json("checked/check.json")["summary"]
+        # A check seeks the extremes of pressures and root stresses too, and so has a few positions more.
+        assert summary["transmission_error_peak_to_peak"] == pytest.approx(each["after"], rel=2e-3)
+        assert summary["contact_pressure"] <= document["pressure_bound"]
