@@ -15,7 +15,7 @@ from gearcad.report.document import ReportFigure, gear_rows, load_rows, page_htm
 
 def write_wear_report(result: WearResult, path: Path, head: Mapping[str, str] | None = None) -> None:
     """Write the report to `path`; the same result gives the same bytes."""
-    path.write_text(wear_html(result, head), encoding="utf-8")
+    path.write_text(wear_html(result, head), encoding="utf-8", newline="\n")
 
 
 def wear_html(result: WearResult, head: Mapping[str, str] | None = None) -> str:
