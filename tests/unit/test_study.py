@@ -289,7 +289,7 @@ REFUSED = {
     "pinion.teth=3": "vary = 'pinion.teth=3': unknown column; did you mean pinion.teeth?",
     "gear.teeth=3": "vary = 'gear.teeth=3': the spec makes a pair; "
     "permitted are keys of [pair], [pinion], [wheel], [material], [load], [mounting], [check], [mesh], [dynamics], "
-    "[rating], [drawing], [verify]",
+    "[rating], [drawing], [verify], [modify]",
     "name=a": "vary = 'name=a': the study numbers the names itself; vary another key",
     "pair.name=a": "vary = 'pair.name=a': the study numbers the names itself; vary another key",
     "pinion.teeth=12:20:4": "vary = 'pinion.teeth=12:20:4': "

@@ -33,8 +33,8 @@ def _menu(tab: Tab, name: str) -> None:
 def _shows_no_gears(tab: Tab) -> None:
     """That nothing of another design is there, but a band that says why."""
     tab.page.wait_for_selector(".band:visible")
+    tab.page.wait_for_selector('.gear-section[data-teeth=""]', state="attached")
     assert tab.page.locator(".gear-sheet h2").count() == tab.page.locator(".gear-sheet table").count() == 0
-    assert tab.page.get_attribute(".gear-section", "data-teeth") == ""
     assert tab.page.locator(".gear-section .tools").count() == 0
     assert set(tab.page.locator(".band:visible").all_inner_texts()) == {"these inputs make no gears"}
     assert not any(tab.page.eval_on_selector_all(".inputs .field input", "all => all.map(each => each.placeholder)"))
