@@ -22,7 +22,7 @@ __all__ = ["Load", "ToothLubrication"]
 
 
 class ToothLubrication(StrEnum):
-    """What lubricates teeth of plastic: their friction and temperature go by it (VDI 2736-2)."""
+    """Lubrication of teeth of plastic, which decides their friction and temperature (VDI 2736-2)."""
 
     DRY = "dry"
     GREASE = "grease"

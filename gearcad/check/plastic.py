@@ -26,7 +26,7 @@ _RELIEF = 0.5
 
 @dataclass(frozen=True, kw_only=True)
 class PlasticCheck:
-    """What a check of a pair with a gear of plastic has beside VDI 2736-2; stresses in MPa, tip relief in µm.
+    """Figures of a check with a gear of plastic, to stand beside those of VDI 2736-2; stresses in MPa, tip relief in µm.
 
     `contact_ratio` is that of the teeth without load, of helical pairs in total. `moduli` are those of the check, at the
     temperature of the roots (°C) where it is known.

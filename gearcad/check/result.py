@@ -453,8 +453,8 @@ class PlaneCheck(CheckResult):
 
     @property
     def own_document(self) -> JsonObject:
-        """Of a section of helical teeth its helix angle (deg) and load (N/mm); of a rack the force along it (N), and its lag
-        along the pitch line (µm) at the positions.
+        """Helix angle (deg) and load (N/mm) of a section of helical teeth; force (N) along a rack, and the rack's lag along the
+        pitch line (µm) at the positions.
         """
         section: JsonObject = {}
         if self.task.is_section:

@@ -294,7 +294,7 @@ def _frozen(values: Floats) -> Floats:
 
 @dataclass(frozen=True)
 class _Run:
-    """What all steps have in common."""
+    """Inputs that all steps have in common."""
 
     task: CheckTask
     options: WearOptions

@@ -302,7 +302,7 @@ def _safeties(document: Mapping[str, Any], names: tuple[str, ...]) -> Iterator[s
 
 
 def _plastic(rating: StrengthRating, document: Mapping[str, Any]) -> Iterator[str]:
-    """What VDI 2736-2 has of gears of plastic: heat, wear and deformation, a line for each quantity."""
+    """Yield the lines of VDI 2736-2 for gears of plastic: heat, wear and deformation, a line for each quantity."""
     from gearcad.sheet.trains import OF_PLASTIC, plastic_quantities
 
     if found := plastic_quantities(rating, document):

@@ -44,7 +44,7 @@ class ImportedSpec:
 
 @dataclass(frozen=True)
 class RexsImport:
-    """What a file of REXS holds for gearcad, and lines about the parts that no spec has."""
+    """Content of a REXS file as specs, and lines about the parts that no spec has."""
 
     file: str
     version: str

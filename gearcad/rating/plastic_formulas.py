@@ -90,7 +90,7 @@ class TipRoot(NamedTuple):
 
 @dataclass(frozen=True)
 class PlasticGeometry:
-    """What the rating of a pair takes from its teeth."""
+    """Figures of the teeth that the rating of a pair takes."""
 
     pair: GearPair
 

@@ -111,7 +111,7 @@ def _grid(flank: TransverseFlank, spans: int) -> WearGrid:
 
 @dataclass(frozen=True, kw_only=True)
 class CycleWear:
-    """What one passage of a tooth through the mesh takes off, for a wear coefficient of 1 mm²/N.
+    """Loss of both flanks in one passage of a tooth through the mesh, for a wear coefficient of 1 mm²/N.
 
     `lost` are the areas (n,) in mm² at the splines of each gear's flank, `work` (N, per mm of width and mm of sliding) the sum
     of force times sliding: a flank loses as much as that, whatever its splines.

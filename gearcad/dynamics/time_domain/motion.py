@@ -329,7 +329,7 @@ class TorqueRipple:
 
     @property
     def cycles(self) -> int:
-        """How often the torque comes again in the common period."""
+        """Number of times that the torque comes again in the common period."""
         return int(np.gcd.reduce(self.order))
 
     def samples(self, count: int) -> Floats:
